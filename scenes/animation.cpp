@@ -17,7 +17,7 @@ namespace {
 
 bool is_valid(const glm::vec3& point) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(point[axis]) <= kLargestNumber)) return false;  // catches NaN too
+    if (!(std::abs(point[axis]) <= kLargestNumber)) return false;  // also catches NaN
   }
   return true;
 }

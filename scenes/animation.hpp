@@ -1,5 +1,5 @@
 #pragma once
-// A scene that moves: frames over fixed primitives whose coordinates change.
+// A scene that moves: a fixed set of primitives whose coordinates change from frame to frame.
 
 #include <cstdint>
 #include <functional>
@@ -14,8 +14,8 @@
 
 namespace beambench::scenes {
 
-/// The coordinates of one frame, in arrays of the same sizes as the scene's. Radii and the visible
-/// sides of primitives are those of the scene.
+/// The coordinates of one frame, in arrays of the same sizes as the scene's. The radii and visible
+/// sides of primitives equal the scene's.
 struct Pose {
   std::vector<glm::vec3> vertices;
   std::vector<glm::vec3> normals;
@@ -35,9 +35,9 @@ void set_pose(Scene& scene, const Pose& pose, std::uint32_t frame);
 
 /// A scene and its motion.
 struct Animation {
-  Scene scene;               ///< as in frame 0
-  std::uint32_t frames = 1;  ///< 1: static
-  /// Returns the coordinates of a frame, independent of all other frames; null if the scene is
+  Scene scene;               ///< the scene in frame 0
+  std::uint32_t frames = 1;  ///< number of frames; 1: static
+  /// Returns the coordinates of a frame, independently of all other frames. Null if the scene is
   /// static.
   std::function<Pose(std::uint32_t frame)> pose{};
 };
@@ -46,12 +46,12 @@ struct Animation {
 /// `waving-sheet:n=64@7`.
 struct FrameName {
   std::string_view scene;
-  std::optional<std::uint32_t> frame;  ///< nothing if none is named
+  std::optional<std::uint32_t> frame;  ///< empty if the name has no frame number
 };
 FrameName divide_frame(std::string_view name);
 
-/// Moves the animation's scene to a frame. Throws InputError if there is no such frame, and like
-/// `set_pose`.
+/// Moves the animation's scene to a frame. Throws InputError if there is no such frame, and also
+/// throws like `set_pose`.
 void show_frame(Animation& animation, std::uint32_t frame);
 
 }  // namespace beambench::scenes

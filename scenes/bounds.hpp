@@ -15,7 +15,7 @@ struct Bounds {
 
   bool empty() const { return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z; }
   glm::vec3 extent() const { return empty() ? glm::vec3(0.0F) : upper - lower; }
-  /// Returns the largest absolute coordinate of any of its points; 0 for an empty box.
+  /// Returns the largest absolute coordinate of any point in the box, or 0 for an empty box.
   float largest_coordinate() const {
     const glm::vec3 largest = glm::max(glm::abs(lower), glm::abs(upper));
     return empty() ? 0.0F : glm::max(glm::max(largest.x, largest.y), largest.z);

@@ -7,8 +7,8 @@
 
 namespace beambench::scenes {
 
-/// A pinhole camera. It defines the frustum; a resolution only samples it (with non-square pixels
-/// if its aspect differs), so that sweeps over resolutions see the same image.
+/// A pinhole camera. It defines the frustum; a resolution only samples the frustum (with non-square
+/// pixels if its aspect differs), so that sweeps over resolutions use the same image.
 struct Camera {
   std::string name = "default";
   glm::vec3 from{0.0F, 0.0F, 0.0F};

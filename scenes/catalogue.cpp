@@ -56,8 +56,9 @@ const SceneFormat* find_format(std::string_view spec) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-/// A scene without primitives would make every structure agree and a comparison meaningless. For a
-/// file, the first warning explains why its primitives were skipped.
+/// Throws InputError for a scene without primitives, on which every structure would agree and a
+/// comparison would be meaningless. For a file, the first warning explains why primitives were
+/// skipped.
 void require_primitives(const Scene& scene, const std::vector<std::string>& noticed) {
   if (!scene.primitives.empty()) return;
   throw InputError(
@@ -70,14 +71,14 @@ void require_primitives(const Scene& scene, const std::vector<std::string>& noti
   for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
   throw InputError(fmt::format(
       "there is no scene '{}'; {}the scenes are {}; a file is given as a path with the ending "
-      ".nff, that "
-      "of a mesh, or none, and an installed mesh as mesh:NAME; scenes of a plug-in need "
-      "--plugin FILE",
+      ".nff, the ending of a mesh format, or no ending, and an installed mesh as mesh:NAME; scenes "
+      "of a plug-in need --plugin FILE",
       excerpt(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-/// Removes the parameter common to all catalogue scenes from those given, and returns its value: 0
-/// leaves the scene as it is. If the scene has its own seed and none was given, changes that too.
+/// Removes the parameter `perturb`, common to all catalogue scenes, from the given ones and returns
+/// its value, which is 0 if the scene is not perturbed. Otherwise, if the scene has its own seed
+/// and none was given, also changes that seed.
 std::uint64_t take_perturbation(Spec& spec, const SceneInfo& info) {
   const ParameterInfo& perturb = perturb_parameter();
   const auto find_given = [&](std::string_view name) {
@@ -101,7 +102,7 @@ std::uint64_t take_perturbation(Spec& spec, const SceneInfo& info) {
 const ParameterInfo& perturb_parameter() {
   static const ParameterInfo info = integer_parameter(
       "perturb", 0, 0, 1'000'000,
-      "of every scene here: another placement of its objects and another camera, by this seed");
+      "common to all these scenes: places the objects and the camera differently, by this seed");
   return info;
 }
 
@@ -152,7 +153,7 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, Read
 
 namespace {
 
-/// Loads the scene in its frame 0.
+/// Loads the scene, with its frames, in frame 0.
 Animation load_first_frame(std::string_view spec, std::vector<std::string>* warnings,
                            ReadOptions options) {
   if (const SceneFormat* format = find_format(spec)) {
@@ -177,7 +178,7 @@ Animation load_first_frame(std::string_view spec, std::vector<std::string>* warn
   if (seed == 0) return animation;
   scene.name += fmt::format("{}{}={}", scene.name.find(':') == std::string::npos ? ':' : ',',
                             perturb_parameter().name, seed);
-  return {perturbed(scene, seed)};  // its objects are identified by position, so it is static
+  return {perturbed(scene, seed)};  // static, because objects are identified by their positions
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue maps scene names with parameters, and files, to scenes.
+// The catalogue, which turns scene names with parameters, and file paths, into scenes.
 
 #include <filesystem>
 #include <functional>
@@ -19,12 +19,12 @@ struct SceneInfo {
   std::string name;
   std::string summary;  ///< one sentence
   std::vector<ParameterInfo> parameters;
-  /// May be null if `animate` is given: `Catalogue::add` then derives it from that.
+  /// May be null if `animate` is given: `Catalogue::add` then derives it from `animate`.
   std::function<Scene(const Parameters&)> generate{};
   std::string size_parameter{};  ///< the integer that scales the scene; may be empty
   std::string origin{};          ///< file of the plug-in that defines it; empty if built in
-  /// Creates the scene and its frames, whose number is `frames_parameter`, one of its parameters;
-  /// null if the scene is static.
+  /// Creates the scene and its frames. The scene then has the parameter `frames_parameter()`, the
+  /// number of frames. Null if the scene is static.
   std::function<Animation(const Parameters&)> animate{};
 };
 
@@ -38,10 +38,10 @@ struct ReadOptions {
 
 /// A built-in format of scene files.
 struct SceneFormat {
-  /// Returns whether the format reads what the user typed, judging by the text alone.
+  /// Returns whether the format reads what the user typed, judging by the typed text alone.
   std::function<bool(std::string_view spec)> reads;
   /// Reads the file and its frames, and appends to `warnings` what was skipped or repaired. Throws
-  /// InputError with file and line when the file is malformed.
+  /// InputError with file and line if the file is malformed.
   std::function<Animation(std::string_view spec, ReadOptions options,
                           std::vector<std::string>& warnings)>
       read;
@@ -49,7 +49,7 @@ struct SceneFormat {
 
 /// A format of scene files that a plug-in reads.
 struct SceneReader {
-  std::string ending;   ///< of the file names, in lower case, with its dot: `.xyz`
+  std::string ending;   ///< ending of the file names, in lower case, with its dot: `.xyz`
   std::string summary;  ///< one sentence
   /// Reads a file, and appends to `warnings` what was skipped or repaired. Throws InputError with
   /// file and line when the file is malformed.
@@ -61,7 +61,7 @@ struct SceneReader {
 class Catalogue {
  public:
   void add(SceneInfo scene);
-  /// Adds a format. If several formats read a text, the first one added applies.
+  /// Adds a format. If several formats read the same text, the first one added is used.
   void add_format(SceneFormat format);
   /// Adds a plug-in's reader, which takes precedence over the built-in formats.
   void add_reader(SceneReader reader);
@@ -76,7 +76,7 @@ class Catalogue {
   std::vector<SceneFormat> formats_;  // includes the readers
 };
 
-/// All generated scenes, sorted by name: the built-in ones and those of plug-ins.
+/// Returns all generated scenes, sorted by name: the built-in ones and those of plug-ins.
 std::span<const SceneInfo> scene_catalogue();
 /// Returns the formats that plug-ins read, in addition to the built-in ones (NFF and meshes).
 std::span<const SceneReader> scene_readers();
@@ -92,7 +92,7 @@ const ParameterInfo& perturb_parameter();
 void register_plugin_scenes(std::vector<SceneInfo> scenes, std::vector<SceneReader> readers);
 
 /// Returns the catalogue scene with that name. Throws InputError with the nearest name and all
-/// valid ones.
+/// valid names.
 const SceneInfo& find_scene(const std::string& name);
 
 /// Returns whether the text names a file (or registered mesh) that a format reads.
@@ -100,12 +100,12 @@ bool is_scene_file(std::string_view spec);
 
 /// Loads the scene that the user named: a catalogue name with parameters (`balls:n=4`), a
 /// registered mesh (`mesh:dragon`), or a path to a mesh (by its ending), to a file that a plug-in
-/// reads (see scene_readers()), or to an NFF file (the ending .nff, or none after a slash).
-/// `Scene::name` is the canonical label of a catalogue scene; for all others it is the text in the
-/// form of `name_of_path`. Throws InputError for an unknown name (with the nearest and all valid
-/// ones), a parameter out of range, a missing or malformed file, or a scene without primitives.
-/// Appends to `warnings`, if given, what the reader skipped or repaired, one printable line each.
-/// The options apply to files.
+/// reads (see scene_readers()), or to an NFF file (with the ending .nff, or with a slash and no
+/// ending). `Scene::name` is the canonical label of a catalogue scene; for all others it is the
+/// text in the form of `name_of_path`. Throws InputError for an unknown name (with the nearest name
+/// and all valid names), a parameter out of range, a missing or malformed file, or a scene without
+/// primitives. Appends to `warnings`, if given, what the reader skipped or repaired, one printable
+/// line each. The options apply to files.
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
                  ReadOptions options = {});
 

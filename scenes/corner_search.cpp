@@ -79,7 +79,7 @@ CornerTree::CornerTree(std::span<const glm::dvec2> points, std::vector<std::uint
 }
 
 std::pair<std::size_t, std::size_t> CornerTree::slots_of(std::size_t node) const {
-  const std::size_t level = std::bit_floor(node);  // the level's first node and node count
+  const std::size_t level = std::bit_floor(node);  // both first node and node count of the level
   const std::size_t place = node - level;
   return {slots_.size() * place / level, slots_.size() * (place + 1) / level};
 }

@@ -21,21 +21,22 @@ inline double signed_area(const glm::dvec2& a, const glm::dvec2& b, const glm::d
 }
 
 /// A set of numbers in 0 ... size - 1. It has a bit for each number, a bit for each group of 64
-/// that states whether the group has a member, and so on: each call takes O(log size).
+/// numbers that states whether the group has a member, and so on. Each call takes O(log size).
 class CornerSet {
  public:
   explicit CornerSet(std::uint32_t size);
 
   /// Inserts or removes a number.
   void assign(std::uint32_t number, bool member);
-  /// Returns the first member from `number` on, wrapping around to 0; nothing if the set is empty.
+  /// Returns the first member from `number` on, wrapping around to 0, or nothing if the set is
+  /// empty.
   std::optional<std::uint32_t> next(std::uint32_t number) const;
 
  private:
   std::optional<std::uint32_t> next_not_around(std::uint32_t number) const;
 
   struct Level {
-    std::size_t first;  ///< into words_
+    std::size_t first;  ///< index into words_
     std::size_t words;
   };
   std::vector<Level> levels_;
@@ -51,7 +52,8 @@ class CornerTree {
   bool empty() const { return nodes_.empty() || nodes_[kRoot].left == 0; }
   bool has(std::uint32_t corner) const { return !empty() && leaf_of_[corner] != kNoLeaf; }
   /// Returns a remaining corner that lies in the closed triangle, by the signs of `signed_area`,
-  /// but does not coincide with one of the triangle's own corners; nothing if there is none.
+  /// but does not coincide with one of the triangle's own corners. Returns nothing if there is
+  /// none.
   std::optional<std::uint32_t> find_in_triangle(const glm::dvec2& a, const glm::dvec2& b,
                                                 const glm::dvec2& c) const;
   /// Removes a corner that is in the tree.
@@ -63,7 +65,7 @@ class CornerTree {
     glm::dvec2 upper;
   };
   struct Node {
-    Rectangle box;           ///< of all corners that were ever in the subtree
+    Rectangle box;           ///< box of all corners that were ever in the subtree
     std::uint32_t left = 0;  ///< corners remaining in the subtree; in a leaf, its first slots
   };
   static constexpr std::uint32_t kNoLeaf = 0;
@@ -76,8 +78,8 @@ class CornerTree {
 
   std::span<const glm::dvec2> points_;
   std::vector<std::uint32_t> slots_;
-  std::vector<std::uint32_t> leaf_of_;  ///< by corner
-  std::vector<Node> nodes_;             ///< the second half are the leaves, a power of two
+  std::vector<std::uint32_t> leaf_of_;  ///< the leaf of each corner
+  std::vector<Node> nodes_;             ///< the second half are leaves, a power of two of them
 };
 
 }  // namespace beambench::scenes

@@ -23,15 +23,15 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-constexpr double kMostMove = 0.05;  // of an object's size
+constexpr double kMostMove = 0.05;  // share of an object's size
 constexpr double kMostTurn = 10.0;  // degrees
 constexpr double kCameraTurn = 15.0;
-constexpr double kCameraMove = 0.1;  // of its distance
-constexpr double kLargest = 0.5;     // of the scene's size: larger objects stay
+constexpr double kCameraMove = 0.1;  // share of the camera's distance
+constexpr double kLargest = 0.5;     // share of the scene's size; larger objects stay in place
 
 double size_of(const Bounds& bounds) { return glm::length(dvec3(bounds.extent())); }
 
-/// Numbers the objects of a scene: for each primitive, the first primitive of its object.
+/// Returns the object of each primitive, identified by the object's first primitive.
 std::vector<PrimitiveId> objects_of(const Scene& scene) {
   std::vector<PrimitiveId> parent(scene.primitives.size());
   std::iota(parent.begin(), parent.end(), PrimitiveId{0});
@@ -65,7 +65,7 @@ dmat4 turned_about(const dvec3& center, int axis, double degrees) {
   return moved_by(center) * rotation(axis, degrees) * moved_by(-center);
 }
 
-/// Returns a transform for each object, by the number of its first primitive.
+/// Returns a transform for each object, keyed by its first primitive.
 std::map<PrimitiveId, dmat4> transforms(const Scene& scene, std::span<const PrimitiveId> object_of,
                                         Random& random) {
   std::map<PrimitiveId, Bounds> boxes;
@@ -116,7 +116,7 @@ Scene perturbed(const Scene& scene, std::uint64_t seed) {
   for (const Camera& camera : scene.cameras) {
     builder.add_camera(varied(camera, scene.bounds, random));
   }
-  std::map<std::uint32_t, std::uint32_t> vertex_of;  // vertices belong to one object each
+  std::map<std::uint32_t, std::uint32_t> vertex_of;  // each vertex is part of one object
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     const Primitive& primitive = scene.primitives[id];
     const dmat4& transform = transform_of.at(object_of[id]);

@@ -23,7 +23,8 @@ dvec3 corner_of(const Scene& scene, const Polygon& polygon, std::uint32_t corner
   return {scene.vertices[scene.corners[polygon.first_corner + corner]]};
 }
 
-/// Returns Newell's normal: twice the area of the polygon's projection along each axis.
+/// Returns the unit vector along Newell's normal, whose components are twice the areas of the
+/// polygon's projections along the axes.
 dvec3 unit_normal(const Scene& scene, const Polygon& polygon) {
   dvec3 normal(0.0);
   for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
@@ -54,21 +55,21 @@ bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarSurface& mi
       if (std::abs(glm::dot(away[i], mirror.normal)) > distance) return false;
     }
     const dvec3 across = glm::normalize(glm::cross(away[1] - away[0], away[2] - away[0]));
-    return glm::length(glm::cross(across, mirror.normal)) <= kTolerance;  // the sine between them
+    return glm::length(glm::cross(across, mirror.normal)) <= kTolerance;  // sine of their angle
   });
 }
 
 /// A cell of the space of planes: rounded normal and distance.
 using PlaneCell = std::array<std::int64_t, 4>;
 
-/// Only planes in the same cell are compared, so that a million small mirrors take little time. If
-/// a plane's polygons fall into two neighboring cells, they form two mirrors that show the same
-/// image.
+/// Returns the cell of a mirror's plane. Only planes in the same cell are compared, so that a
+/// million small mirrors take little time. If a plane's polygons fall into two neighboring cells,
+/// they form two mirrors that show the same image.
 PlaneCell cell_of(const Scene& scene, const PlanarSurface& mirror) {
   constexpr double kNormals = 0x1p8;
   constexpr double kDistances = 0x1p10;
   dvec3 normal = mirror.normal;
-  // A plane has two normals; use the one whose first nonzero component is positive.
+  // Of a plane's two normals, the one whose first nonzero component is positive is used.
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(normal[axis]) < 0.5 / kNormals) continue;
     normal *= normal[axis] < 0.0 ? -1.0 : 1.0;
@@ -80,13 +81,13 @@ PlaneCell cell_of(const Scene& scene, const PlanarSurface& mirror) {
           std::llround(kNormals * normal.z), std::llround(kDistances * distance)};
 }
 
-/// Combines the flat polygons that belong to a group: `group_of(surface)`, unless it returns
-/// nothing.
+/// Combines coplanar flat polygons with the same group, `group_of(surface)`. Polygons for which it
+/// returns nothing are left out.
 template <class GroupOf>
 std::vector<PlanarSurface> planar_surfaces(const Scene& scene, GroupOf group_of) {
   using Group = std::pair<std::uint32_t, PlaneCell>;
   std::vector<PlanarSurface> mirrors;
-  std::map<Group, std::vector<std::size_t>> in_cell;  // indices of mirrors
+  std::map<Group, std::vector<std::size_t>> in_cell;  // mirror indices
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (!is_flat(scene, scene.primitives[id])) continue;
     const std::optional<std::uint32_t> group = group_of(scene.primitives[id].surface);
@@ -96,7 +97,7 @@ std::vector<PlanarSurface> planar_surfaces(const Scene& scene, GroupOf group_of)
                       unit_normal(scene, polygon),
                       {id},
                       primitive_bounds(scene, id)};
-    if (!lies_in(scene, polygon, own)) continue;  // it is not flat
+    if (!lies_in(scene, polygon, own)) continue;  // the polygon is not flat
     std::vector<std::size_t>& near = in_cell[{*group, cell_of(scene, own)}];
     const auto same = std::ranges::find_if(
         near, [&](std::size_t i) { return lies_in(scene, polygon, mirrors[i]); });

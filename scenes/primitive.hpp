@@ -31,7 +31,7 @@ struct Sphere {
 };
 
 /// The lateral surface of a cone frustum or cylinder, without caps. Radii are >= 0 and not both 0,
-/// base != apex. `inside_only` (both radii negative in NFF): rays hit it only where they exit.
+/// and base != apex. `inside_only` (both radii negative in NFF): rays hit it only where they exit.
 struct Cone {
   glm::vec3 base;
   float base_radius;
@@ -40,20 +40,20 @@ struct Cone {
   bool inside_only;
 };
 
-/// A simple polygon, convex or concave, seen from both sides. Its surface *is* the union of its
-/// triangles (`Scene::triangles[first_triangle ...]`), made once by `triangulate`; all structures,
-/// including Embree, use these.
+/// A simple polygon, convex or concave, visible from both sides. Its surface *is* the union of its
+/// triangles (`Scene::triangles[first_triangle ...]`), made once by `triangulate`. All structures,
+/// including Embree, use these triangles.
 struct Polygon {
-  std::uint32_t first_corner;    ///< into Scene::corners
+  std::uint32_t first_corner;    ///< index into Scene::corners
   std::uint32_t corner_count;    ///< >= 3
-  std::uint32_t first_triangle;  ///< into Scene::triangles
+  std::uint32_t first_triangle;  ///< index into Scene::triangles
   std::uint32_t triangle_count;  ///< >= 1, at most corner_count - 2
-  std::uint32_t first_normal;    ///< into Scene::normals, one per corner; kFlat for a flat polygon
+  std::uint32_t first_normal;    ///< index into Scene::normals, one per corner; kFlat if flat
 
   static constexpr std::uint32_t kFlat = 0xFFFFFFFFU;
 };
 
-/// One triangle of a polygon's surface: three indices into Scene::vertices, and its owner.
+/// A triangle of a polygon's surface: three indices into Scene::vertices, and the polygon's id.
 struct Triangle {
   std::array<std::uint32_t, 3> vertex;
   PrimitiveId primitive;

@@ -22,7 +22,7 @@ namespace beambench::scenes {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "hash the words byte-swapped, so that hashes stay equal on every machine");
+              "swap the bytes of hashed words, so that hashes are equal on every machine");
 
 /// Feeds 32-bit words to XXH3 in blocks.
 class Fingerprint {
@@ -77,7 +77,7 @@ float sum_rounded_down(double a, double b) {
   const double part = sum - a;
   const double lost = (a - (sum - part)) + (b - part);
   const auto rounded = static_cast<float>(sum);
-  const double excess = static_cast<double>(rounded) - sum;  // exact: the two are that close
+  const double excess = static_cast<double>(rounded) - sum;  // exact, because both are so close
   return excess > lost ? std::nextafter(rounded, -kInfinity) : rounded;
 }
 
@@ -93,7 +93,7 @@ Bounds box_around(const glm::vec3& center, const glm::dvec3& half_size) {
 }
 
 Bounds cone_bounds(const Cone& cone) {
-  // A disc of radius r and unit normal n extends r sqrt(1 - n_i^2) along axis i. The factor covers
+  // A disc of radius r and unit normal n extends r sqrt(1 - n_i^2) along axis i. `kOutward` covers
   // the few roundings of this computation.
   constexpr double kOutward = 1.0 + 0x1p-48;
   const glm::dvec3 axis = glm::dvec3(cone.apex) - glm::dvec3(cone.base);

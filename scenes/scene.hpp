@@ -33,7 +33,7 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Surface> surfaces;  ///< never empty when there are primitives
 
-  std::vector<Primitive> primitives;  ///< by PrimitiveId, in the order they were added
+  std::vector<Primitive> primitives;  ///< indexed by PrimitiveId, in the order they were added
   std::vector<Sphere> spheres;
   std::vector<Cone> cones;
   std::vector<Polygon> polygons;
@@ -42,25 +42,25 @@ struct Scene {
   std::vector<std::uint32_t> corners;  ///< polygon corners: indices into vertices
   std::vector<glm::vec3> normals;      ///< corner normals of smooth polygons
 
-  Bounds bounds;  ///< of all primitives; empty for an empty scene
+  Bounds bounds;  ///< bounds of all primitives; empty for an empty scene
 
-  std::uint32_t frame = 0;  ///< of a scene that moves (animation.hpp)
-  /// The same scene in frame 0; null if this is that frame.
+  std::uint32_t frame = 0;  ///< frame of a scene that moves (animation.hpp)
+  /// The same scene in frame 0; null if this is frame 0.
   std::shared_ptr<const Scene> first_frame{};
 };
 
 /// Returns the tight bounds of one primitive, rounded outward to float (a sphere's c + r may not be
-/// representable). For a cone: the box of its two end discs.
+/// representable). A cone's bounds are the box of its two end discs.
 Bounds primitive_bounds(const Scene& scene, PrimitiveId id);
 
-/// Returns the bounds of all primitives together; empty if there are none.
+/// Returns the bounds of all primitives together, which are empty if there are no primitives.
 Bounds bounds_of_all(const Scene& scene);
 
 /// Returns the bytes of the scene's arrays, including spare capacity.
 std::size_t memory_bytes(const Scene& scene);
 
 /// Returns a 64-bit hash of everything that rays can hit: primitives, their coordinates and order
-/// (XXH3 over the bits; not surfaces, lights or cameras). The same on every machine.
+/// (XXH3 over the bits; not surfaces, lights or cameras). The hash is the same on every machine.
 std::uint64_t scene_hash(const Scene& scene);
 
 /// Returns the camera of that name. Throws InputError with a list of the scene's cameras.

@@ -38,9 +38,9 @@ std::string message(const Subject& subject, const std::string& why) {
   throw DegeneratePrimitive(message(subject, why));
 }
 
-/// Rounds to float, once; -0 becomes 0, so that equal scenes have equal bits.
+/// Rounds once to float; -0 becomes 0, so that equal scenes have equal bits.
 float rounded(double number, const Subject& subject, const char* what) {
-  if (!(std::abs(number) <= kLargestNumber)) {  // catches NaN too
+  if (!(std::abs(number) <= kLargestNumber)) {  // also catches NaN
     refuse(subject,
            fmt::format("the {} is {}, but must be a number from -1e9 to 1e9", what, number));
   }
@@ -59,7 +59,7 @@ std::uint32_t index_32(std::size_t index, const Subject& subject) {
   return static_cast<std::uint32_t>(index);
 }
 
-/// The corners of a polygon, with consecutive coincident ones merged into the first.
+/// The corners of a polygon, with consecutive coincident corners merged into the first of them.
 struct MergedCorners {
   std::vector<std::uint32_t> vertices;
   std::vector<glm::vec3> positions;
@@ -91,7 +91,7 @@ MergedCorners merge_corners(std::span<const std::uint32_t> vertices,
   return merged;
 }
 
-/// Newell's normal of the corners.
+/// Returns Newell's normal of the corners.
 glm::dvec3 polygon_normal(std::span<const glm::vec3> corners) {
   glm::dvec3 normal(0.0);
   const glm::dvec3 origin(corners.front());
@@ -101,7 +101,7 @@ glm::dvec3 polygon_normal(std::span<const glm::vec3> corners) {
   return glm::normalize(normal);
 }
 
-/// Returns the merged corners' normals; `replaced` counts those of length 0.
+/// Returns the merged corners' normals; `replaced` counts replaced normals of length 0.
 std::vector<glm::vec3> corner_normals(const MergedCorners& corners,
                                       std::span<const glm::dvec3> normals, const Subject& subject,
                                       std::size_t& replaced) {
@@ -118,7 +118,8 @@ std::vector<glm::vec3> corner_normals(const MergedCorners& corners,
   return kept;
 }
 
-/// Camera names are typed on command lines and written on a line of NFF.
+/// Throws if a camera's name is not plain: names are typed on command lines and written on a line
+/// of NFF.
 void require_plain_name(const std::string& name, const Subject& subject) {
   const bool plain = std::none_of(
       name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '\x7F' || c == '#'; });
@@ -134,8 +135,8 @@ void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// Returns the eye at that distance from the center, within the coordinate limit: if there is not
-/// enough room, the eye is moved to the origin's side or closer.
+/// Returns an eye at that distance from the center, within the coordinate limit. If there is not
+/// enough room, the eye is on the origin's side of the center, or closer to it.
 glm::dvec3 fitted_eye(const glm::dvec3& center, double distance) {
   glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, 0.8, 1.3));
   double room = distance;
@@ -295,7 +296,7 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
   const auto triangles = triangulate(corners.positions);
   if (triangles.empty()) {
     refuse_degenerate(subject,
-                      "it has no area: its corners lie on a line, or it crosses itself; remove it");
+                      "it has no area: its corners are collinear, or it crosses itself; remove it");
   }
   std::size_t replaced = 0;
   std::vector<glm::vec3> kept_normals;
@@ -325,7 +326,7 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
 bool SceneBuilder::add_flat_triangle(std::span<const std::uint32_t> vertices) {
   const std::array<std::uint32_t, 3> corners{vertices[0], vertices[1], vertices[2]};
   if (*std::max_element(corners.begin(), corners.end()) >= scene_.vertices.size()) return false;
-  // Three corners, two of which are at the same place, have no area either.
+  // This also excludes triangles with two corners at the same place, which have no area.
   const auto at = [&](std::size_t i) { return scene_.vertices[corners[i]]; };
   if (!has_area(at(0), at(1), at(2))) return false;
   const std::size_t first_corner = scene_.corners.size();
@@ -362,7 +363,7 @@ void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,
 
 std::uint32_t SceneBuilder::current_surface() {
   if (surface_index_) return *surface_index_;
-  // Generators cycle through a few surfaces millions of times; only the recent ones are reused.
+  // Generators cycle through a few surfaces millions of times, so only recent surfaces are reused.
   constexpr std::size_t kRemembered = 64;
   auto& surfaces = scene_.surfaces;
   const auto oldest =

@@ -27,7 +27,7 @@ class DegeneratePrimitive : public InputError {
 /// The maximum absolute value of a scene's coordinates, radii and factors.
 inline constexpr double kLargestNumber = 1e9;
 
-/// Counts of what a builder repaired instead of refusing it.
+/// Counts of faults that a builder repaired instead of refusing the primitive.
 struct Repairs {
   std::size_t merged_corners = 0;    ///< polygon corners at the place of the preceding corner
   std::size_t replaced_normals = 0;  ///< normals of length 0, replaced by the polygon's own
@@ -50,20 +50,20 @@ class SceneBuilder {
   /// blanks at its ends. The scene stores the name in the form of `printable`.
   void add_camera(const Camera& camera);
 
-  /// A negative radius means seen from the inside only; 0 is refused.
+  /// Adds a sphere. A negative radius makes it visible only from the inside; 0 is refused.
   void add_sphere(const glm::dvec3& center, double radius);
-  /// Both radii negative: seen from the inside only. Radii of mixed sign, both 0, or base == apex
-  /// are refused.
+  /// Adds a cone. Two negative radii make it visible only from the inside. Radii of mixed sign, two
+  /// radii of 0, and base == apex are refused.
   void add_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex,
                 double apex_radius);
 
   /// Reserves memory for additional vertices and flat triangles.
   void reserve_triangles(std::size_t vertices, std::size_t triangles);
-  /// Adds a vertex that polygons can share; returns its index.
+  /// Adds a vertex that polygons can share, and returns its index.
   std::uint32_t add_vertex(const glm::dvec3& position);
-  /// Adds a polygon over shared vertices. `normals` is empty (flat) or one per corner; a normal of
-  /// length 0 is replaced by the polygon's own. Consecutive corners at the same place are merged; a
-  /// polygon with fewer than three distinct corners, or with no area, is refused.
+  /// Adds a polygon over shared vertices. `normals` is empty (flat) or has one normal per corner; a
+  /// normal of length 0 is replaced by the polygon's own. Consecutive corners at the same place are
+  /// merged; a polygon with fewer than three distinct corners, or with no area, is refused.
   void add_polygon(std::span<const std::uint32_t> vertices,
                    std::span<const glm::dvec3> normals = {});
   /// Adds a polygon with its own vertices. A refused primitive leaves the builder unchanged.
@@ -73,8 +73,9 @@ class SceneBuilder {
   const Repairs& repairs() const { return repairs_; }
 
   /// Returns the finished scene. Throws if its box is smaller than `kMinExtent`. Without a camera,
-  /// one is fitted to the bounds: from (1, 0.8, 1.3), up +z as in most NFF files, angle 45, the
-  /// whole scene in view as far as the eye can be moved back within the limit of coordinates.
+  /// one is fitted to the bounds: it looks from (1, 0.8, 1.3), with up +z as in most NFF files and
+  /// an angle of 45 degrees. The whole scene is in view unless the limit of coordinates keeps the
+  /// eye too close.
   Scene build() &&;
 
  private:
@@ -86,7 +87,7 @@ class SceneBuilder {
 
   Scene scene_;
   Surface surface_;
-  std::optional<std::uint32_t> surface_index_;  ///< of surface_, once a primitive uses it
+  std::optional<std::uint32_t> surface_index_;  ///< index of surface_ once a primitive uses it
   Repairs repairs_;
 };
 
@@ -97,8 +98,8 @@ class SceneBuilder {
 /// between 1e-18 and 1e-21. The limit leaves a safety factor of a thousand.
 inline constexpr double kMinExtent = 1e-9;
 
-/// Returns why a scene with these bounds is too small, as a clause that includes the remedy; empty
-/// if it is large enough or has no primitives.
+/// Returns why a scene with these bounds is too small, as a clause that includes the remedy, or an
+/// empty string if it is large enough or has no primitives.
 std::string extent_fault(const Bounds& bounds);
 
 }  // namespace beambench::scenes

@@ -62,7 +62,7 @@ class Selection {
 
   const Scene& whole_;
   Scene& part_;
-  std::unordered_map<std::uint32_t, std::uint32_t> places_;  ///< of vertices
+  std::unordered_map<std::uint32_t, std::uint32_t> places_;  ///< new index of each copied vertex
 };
 
 }  // namespace

@@ -7,8 +7,9 @@
 
 namespace beambench::scenes {
 
-/// Returns the primitives with these ids, in their order, bit for bit, each vertex once, with all
-/// surfaces, lights and cameras. The bounds are those of the chosen primitives.
+/// Returns a scene of the primitives with these ids, in the order of the ids and bit for bit, with
+/// all surfaces, lights and cameras. Each vertex is copied once. The bounds are those of the chosen
+/// primitives.
 Scene subset(const Scene& scene, std::span<const PrimitiveId> ids);
 
 }  // namespace beambench::scenes

@@ -41,15 +41,16 @@ struct Surface {
   bool operator==(const Surface&) const = default;
 };
 
-/// Returns the NFF word of a finish: `surfglass`, `texredmarble`...; `f` for a plain one.
+/// Returns the NFF word of a finish, such as `surfglass` or `texredmarble`, or `f` for a plain one.
 std::string_view finish_word(Finish finish);
 
-/// Returns the finish that an NFF word of the thesis names; nothing for any other word, including
-/// `f`.
+/// Returns the finish that an NFF word of the thesis names, or nothing for any other word,
+/// including `f`.
 std::optional<Finish> find_finish(std::string_view word);
 
-/// Returns the surface of a finish. The thesis states no numbers: a texture has its mean color, a
-/// mirror reflects nearly all light, and glass transmits nearly all. Plain is white and matte.
+/// Returns the surface of a finish. The thesis states no numbers. A texture has its mean color, a
+/// mirror reflects nearly all light, and glass transmits nearly all of it. The plain surface is
+/// white and matte.
 Surface finished_surface(Finish finish);
 
 }  // namespace beambench::scenes

@@ -13,16 +13,16 @@
 namespace beambench::scenes {
 namespace {
 
-/// Projects the corners along the largest axis of the polygon's normal, mirrored if needed so that
-/// the polygon runs counter-clockwise; nothing if it has no area. Differences from the first corner
-/// keep their precision far from the origin.
+/// Projects the corners along the largest component of the polygon's normal, mirrored if needed so
+/// that the polygon runs counter-clockwise. Returns nothing if the polygon has no area. Differences
+/// from the first corner keep their precision far from the origin.
 std::optional<std::vector<glm::dvec2>> project(std::span<const glm::vec3> corners) {
   std::vector<glm::dvec3> relative;
   relative.reserve(corners.size());
   for (const glm::vec3& corner : corners) {
     relative.push_back(glm::dvec3(corner) - glm::dvec3(corners.front()));
   }
-  glm::dvec3 normal(0.0);  // Newell: the sum of the signed areas seen from the first corner
+  glm::dvec3 normal(0.0);  // Newell's: the sum of the signed areas seen from the first corner
   for (std::size_t i = 1; i + 1 < relative.size(); ++i) {
     normal += glm::cross(relative[i], relative[i + 1]);
   }
@@ -66,9 +66,9 @@ class Ring {
   }
 
   /// Returns the corner to clip next, the first of its kind from `start` on. The first choice is an
-  /// ear. The second is a corner without area: corners on a straight edge are thus kept as long as
-  /// another triangle can use them, and neighbors that share such a corner meet without a crack.
-  /// Otherwise the polygon crosses itself, and any convex corner will do.
+  /// ear, the second a corner without area. Corners on a straight edge are thus kept as long as
+  /// another triangle can use them, and neighbors that share such a corner meet without a crack. If
+  /// there is neither kind, the polygon crosses itself, and any convex corner will do.
   std::optional<std::uint32_t> next_to_clip(std::uint32_t start) {
     while (const auto corner = may_be_ear_.next(start)) {
       if (is_ear(*corner)) return corner;
@@ -149,8 +149,8 @@ class Ring {
   CornerSet without_area_;
   CornerSet may_be_ear_;  ///< convex, and not known to be blocked
   CornerTree not_convex_;
-  std::vector<std::uint32_t> in_its_way_;                  ///< by corner that is not an ear
-  std::vector<std::vector<std::uint32_t>> in_the_way_of_;  ///< the inverse
+  std::vector<std::uint32_t> in_its_way_;                  ///< what blocks a corner's ear
+  std::vector<std::vector<std::uint32_t>> in_the_way_of_;  ///< the corners that a corner blocks
 };
 
 }  // namespace

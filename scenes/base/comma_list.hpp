@@ -1,12 +1,12 @@
 #pragma once
-// Lists that a user types, separated by commas.
+// Comma-separated lists that a user types.
 
 #include <string>
 #include <string_view>
 
 namespace beambench {
 
-/// Removes blanks at both ends of a list and beside its commas: `a, b` is `a,b`.
+/// Removes blanks at both ends of a list and beside its commas: `a, b` becomes `a,b`.
 std::string without_blanks_at_commas(std::string_view list);
 
 }  // namespace beambench

@@ -44,7 +44,8 @@ std::string unescaped(std::string_view text) {
   return result;
 }
 
-/// The process's group in each hierarchy, as a path from the root; nothing if it is in none.
+/// The process's group in each hierarchy, as a path from the root; empty if the process is in no
+/// group.
 struct Membership {
   std::optional<std::string> version1;
   std::optional<std::string> version2;
@@ -66,7 +67,8 @@ Membership membership(std::string_view controller, const fs::path& root) {
   return found;
 }
 
-/// Returns the path of a group below the mounted group; empty if only the mount is visible.
+/// Returns the path of a group below the mounted group, or an empty path if only the mount is
+/// visible.
 fs::path below_mount(const std::string& group, const std::string& mounted) {
   const fs::path relative = fs::path(group).lexically_relative(mounted);
   const bool is_below = !relative.empty() && std::ranges::find(relative, "..") == relative.end();

@@ -16,7 +16,7 @@ struct ControlGroups {
 
 /// Returns the groups of a controller, such as "cpu" or "memory". Both versions may be in use at
 /// once, with each controller in one of them. A folder may lack the controller's files. In a
-/// container, only the container's own group is mounted, and the mount is returned. `root` is the
+/// container, only the container's own group is mounted, and its mount is returned. `root` is the
 /// folder that holds /proc and the mounts.
 ControlGroups control_groups(std::string_view controller, const std::filesystem::path& root = "/");
 

@@ -20,7 +20,8 @@ void take_least_ratio(std::optional<double>& least, std::optional<std::uint64_t>
   least = std::min(least.value_or(ratio), ratio);
 }
 
-/// Adds the counts of a group's cpu.stat, whose time has a different name and unit in each version.
+/// Adds the counts of a group's cpu.stat, in which the waiting time has a different name and unit
+/// in each version.
 void add_counts(ThrottlingByGroup& groups, const fs::path& folder, const char* time_name,
                 double unit_seconds) {
   const std::string text = kernel_text(folder / "cpu.stat");
@@ -31,7 +32,8 @@ void add_counts(ThrottlingByGroup& groups, const fs::path& folder, const char* t
   groups[folder] = {*periods, *throttled, unit_seconds * time};
 }
 
-/// Returns the growth of a count. The counts of a recreated group start from 0.
+/// Returns the growth of a count. If the group was recreated in between, its counts started from 0
+/// again.
 template <class T>
 T growth(T before, T after) {
   return after >= before ? after - before : after;

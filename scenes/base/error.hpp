@@ -16,8 +16,9 @@ class InputError : public std::runtime_error {
   explicit InputError(const std::string& message);
 };
 
-/// A plug-in broke its contract: it threw, or returned nothing or an invalid value. The message is
-/// one sentence that names the plug-in and its part; the command line prints it and exits with 1.
+/// An error of a plug-in that broke its contract: it threw, or returned nothing or an invalid
+/// value. The message is one sentence that names the plug-in and its part; the command line prints
+/// it and exits with 1.
 class PluginError : public std::runtime_error {
  public:
   /// Stores the message like `InputError`.

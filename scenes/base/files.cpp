@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An open file, closed at the end; -1 where opening failed, with errno set.
+/// An open file, closed by the destructor. The descriptor is -1 if opening failed, with errno set.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -46,7 +46,7 @@ class Descriptor {
 
 // Input
 
-constexpr std::size_t kFirstBlock = std::size_t{1} << 16U;   // for inputs of unknown length
+constexpr std::size_t kFirstBlock = std::size_t{1} << 16U;   // read first if the length is unknown
 constexpr std::size_t kLargestRead = std::size_t{1} << 30U;  // one call reads no more than 2 GiB
 constexpr std::size_t kStreamBlock = std::size_t{1} << 18U;
 constexpr std::size_t kLongestLine = std::size_t{1} << 28U;
@@ -79,8 +79,8 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
                "start the program that writes into it first");
 }
 
-/// A path opened for reading. With O_NONBLOCK, opening a named pipe does not wait for a writer;
-/// reads may wait for an existing one.
+/// A path opened for reading. With O_NONBLOCK, opening a named pipe does not wait for a writer; if
+/// there is a writer, reads may wait for it.
 struct OpenInput {
   explicit OpenInput(const fs::path& path)
       : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
@@ -96,8 +96,8 @@ struct OpenInput {
   bool is_pipe = false;
 };
 
-/// Returns how many bytes of a regular file remain; 0 for anything without a length (a pipe, a file
-/// in /proc).
+/// Returns how many bytes of a regular file remain, or 0 for anything without a length (a pipe, a
+/// file in /proc).
 std::uint64_t known_length(int descriptor, const std::string& name) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) refuse_input_error(name, errno);
@@ -108,7 +108,8 @@ std::uint64_t known_length(int descriptor, const std::string& name) {
       std::max<off_t>(status.st_size - std::max<off_t>(position, 0), 0));
 }
 
-/// Returns whether it is a device, such as /dev/zero, from which nobody intends to read gigabytes.
+/// Returns whether the input is a device, such as /dev/zero, from which nobody intends to read
+/// gigabytes.
 bool is_device(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && S_ISCHR(status.st_mode);
@@ -138,7 +139,7 @@ std::string read_whole(int descriptor, const std::string& name, std::uint64_t ma
 
 // Output
 
-constexpr const char* kPartial = ".partial";  // in the names of files that are being written
+constexpr const char* kPartial = ".partial";  // part of the name of a file being written
 
 /// The kind of target that an output path refers to.
 struct OutputTarget {
@@ -149,8 +150,8 @@ struct OutputTarget {
     kOpen     ///< the destination of standard output or error: appended to
   };
   Kind kind;
-  fs::path path;        ///< with symbolic links followed to their end; for a kNode, as given
-  int descriptor = -1;  ///< for a kOpen
+  fs::path path;        ///< with symbolic links resolved; for a kNode, as given
+  int descriptor = -1;  ///< set for a kOpen
 };
 
 constexpr int kMaxLinks = 40;  // the kernel's own limit
@@ -163,8 +164,8 @@ bool is_same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// Returns the descriptor of standard output or error, whichever goes to the file at the path; -1
-/// if neither does. If that file were replaced, the rest of the output would not reach the new one.
+/// Returns the descriptor of standard output or error, whichever goes to the file, or -1 if neither
+/// does. If the file were replaced, later output would not reach the new one.
 int open_descriptor_of(const struct stat& status) {
   for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat open {};
@@ -183,8 +184,8 @@ fs::path end_of_dangling(const fs::path& path) {
   return end;
 }
 
-/// Returns the path of an existing regular file without links; the path itself if the file is open
-/// somewhere but no longer has a name (`/dev/fd/3` of a deleted file).
+/// Returns the path of an existing regular file with links resolved, or the path itself if the file
+/// is open but no longer has a name (`/dev/fd/3` of a deleted file).
 OutputTarget file_target(const fs::path& path, const struct stat& status) {
   std::error_code no_name;
   const fs::path real = fs::canonical(path, no_name);
@@ -194,8 +195,9 @@ OutputTarget file_target(const fs::path& path, const struct stat& status) {
   return {OutputTarget::Kind::kFile, real};
 }
 
-/// Follows symbolic links, including dangling ones. Throws std::filesystem::filesystem_error when
-/// that is impossible, for example when links form a cycle.
+/// Returns the target of an output path. Follows symbolic links, including dangling ones, and
+/// throws std::filesystem::filesystem_error if that is impossible, for example if links form a
+/// cycle.
 OutputTarget find_output_target(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
@@ -227,14 +229,14 @@ fs::path folder_of(const fs::path& target) {
                   "make room there or choose another place");
   }
   if (error == EFBIG) {
-    refuse_output(target, "it would be larger than files may be here",
+    refuse_output(target, "it would be larger than the file size limit",
                   "raise the limit (ulimit -f) or choose another disk");
   }
   refuse_output(target, error == 0 ? "the writing failed" : std::strerror(error),
                 "choose another place");
 }
 
-/// Refuses folders.
+/// Returns the target of an output path. Throws InputError for a folder.
 OutputTarget target_of(const fs::path& target) {
   if (!target.has_filename()) refuse_output(target, "it names a folder", "add a file name");
   try {
@@ -254,7 +256,7 @@ class DescriptorBuffer : public std::streambuf {
     setp(buffer_.data(), buffer_.data() + buffer_.size());
   }
 
-  /// Returns errno of the failed write; 0 if none failed.
+  /// Returns errno of the failed write, or 0 if no write failed.
   int error() const { return error_; }
 
  private:
@@ -287,7 +289,7 @@ class DescriptorBuffer : public std::streambuf {
   std::array<char, 1U << 16U> buffer_{};
 };
 
-/// Returns errno of the failed write (0 if the stream went bad by itself); nothing if none failed.
+/// Returns nothing on success, otherwise errno of the failed write (0 if the stream itself failed).
 std::optional<int> write_into(int descriptor, const std::function<void(std::ostream&)>& write) {
   DescriptorBuffer buffer(descriptor);
   std::ostream stream(&buffer);
@@ -303,7 +305,8 @@ bool reaches_disk(int descriptor) {
   return descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
 }
 
-/// Writes a temporary file and renames it; a later power loss does not bring back the old one.
+/// Writes a temporary file and renames it. After that, a power loss does not bring back the old
+/// file.
 void replace_file(const fs::path& target, const fs::path& named,
                   const std::function<void(std::ostream&)>& write) {
   const fs::path folder = folder_of(target);
@@ -322,7 +325,7 @@ void replace_file(const fs::path& target, const fs::path& named,
     fs::remove(beside, ignored);
     throw;
   }
-  // Sync the folder too: it holds the new name.
+  // The folder is also synced, because it holds the new name.
   const Descriptor place(::open(folder.c_str(), O_RDONLY | O_CLOEXEC));
   if (!reaches_disk(place.number())) refuse_output_error(named, errno);
 }
@@ -404,7 +407,7 @@ struct InputStream::State {
   std::uint64_t length;     ///< 0 if unknown
   std::uint64_t taken = 0;  ///< bytes read from the file
   std::string buffer{};
-  std::size_t begin = 0;  ///< start of the data not yet returned, in `buffer`
+  std::size_t begin = 0;  ///< start in `buffer` of the data not yet returned
 };
 
 InputStream::InputStream(const fs::path& path) : state_(std::make_unique<State>(path)) {}
@@ -423,7 +426,7 @@ std::optional<std::string_view> InputStream::line() {
     if (!ended && end == std::string_view::npos) {
       if (searched > kLongestLine) {
         refuse_input(state.name, fmt::format("it has a line of more than {} bytes", kLongestLine),
-                     "write one record a line");
+                     "write one record per line");
       }
       continue;
     }

@@ -14,8 +14,7 @@
 
 namespace beambench {
 
-/// The size limit of documents that people write (a sweep, a cache entry, the index of a kit): 64
-/// MiB.
+/// The size limit of small documents (a sweep, a cache entry, the index of a kit): 64 MiB.
 inline constexpr std::uint64_t kLargestDocument = std::uint64_t{64} << 20U;
 /// The size limit of files that programs write in one piece: 4 GiB.
 inline constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30U;
@@ -33,8 +32,8 @@ std::string read_input(const std::filesystem::path& path, std::uint64_t max_byte
 /// call it `name`.
 std::string read_input(int descriptor, const std::string& name, std::uint64_t max_bytes);
 
-/// Reads a text like `read_input`. A byte order mark of UTF-8 at its beginning, which some editors
-/// write, is skipped, and UTF-16 is refused (`plain_text`).
+/// Reads text like `read_input`. Skips a UTF-8 byte order mark at the beginning, which some editors
+/// write, and refuses UTF-16 (`plain_text`).
 std::string read_text_input(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// An input read in parts, for inputs that may be larger than memory. The rules of `read_input`
@@ -46,14 +45,14 @@ class InputStream {
   InputStream(InputStream&&) noexcept;
   InputStream& operator=(InputStream&&) = delete;
 
-  /// Returns the next line without its end, "\n" or "\r\n"; nothing at the end of the input. A byte
-  /// order mark before the first line is skipped. The line is valid until the next call. Throws
-  /// InputError for a line of more than 256 MiB.
+  /// Returns the next line without its end ("\n" or "\r\n"), or nothing at the end of the input. A
+  /// byte order mark before the first line is skipped. The line is valid until the next call.
+  /// Throws InputError for a line of more than 256 MiB.
   std::optional<std::string_view> line();
   /// Fills the buffer and returns the number of bytes read, which is smaller only at the end of the
   /// input.
   std::size_t read(std::span<char> buffer);
-  /// Returns the number of bytes left; nothing for a pipe or a device.
+  /// Returns the number of bytes left, or nothing for a pipe or a device.
   std::optional<std::uint64_t> remaining() const;
   /// Returns the number of bytes taken so far by `line` and `read`.
   std::uint64_t position() const;
@@ -63,19 +62,19 @@ class InputStream {
   std::unique_ptr<State> state_;
 };
 
-/// Throws InputError if output cannot be written there: the folder is missing or not writable, a
-/// folder has the file's name, a device is not writable, or symbolic links are broken. Used to
-/// reject a request before long work starts.
+/// Throws InputError if output cannot be written to `target`: its folder is missing or not
+/// writable, a folder has the file's name, a device is not writable, or symbolic links are broken.
+/// Used to reject a request before long work starts.
 void require_writable(const std::filesystem::path& target);
 
-/// Writes an output. A file is written completely or not at all: under a temporary name in the same
+/// Writes output. A file is written completely or not at all: under a temporary name in the same
 /// folder (with the same ending), synced to the disk, and renamed. If the path is a symbolic link,
 /// its target is replaced. Anything other than a regular file (a device, a named pipe, the standard
 /// output) is written to, never replaced; a named pipe waits for its reader. Throws InputError on
 /// failure.
 void write_file(const std::filesystem::path& target, std::string_view text);
-/// Writes an output that is too long to be built in memory first: `write` writes it to the stream.
-/// If `write` throws, the file is unchanged.
+/// Writes output that is too long to be built in memory first: `write` writes it to the stream. If
+/// `write` throws, the file is unchanged.
 void write_file(const std::filesystem::path& target,
                 const std::function<void(std::ostream&)>& write);
 
@@ -90,7 +89,7 @@ class GrowingFile {
   GrowingFile(GrowingFile&& other) noexcept;
   GrowingFile& operator=(GrowingFile&&) = delete;
 
-  /// Adds a line and its end. Throws InputError when the disk is full or fails; the file is then
+  /// Adds a line and a line end. Throws InputError if the disk is full or fails; the file is then
   /// unchanged.
   void add_line(std::string_view line);
 
@@ -100,11 +99,11 @@ class GrowingFile {
   std::uint64_t bytes_;
 };
 
-/// Creates a folder and its parents if necessary. Throws InputError with the remedy.
+/// Creates a folder and its parents if necessary. Throws InputError with `remedy` on failure.
 void make_folder(const std::filesystem::path& folder,
                  std::string_view remedy = "choose another place");
 
-/// Returns whether this is a temporary file left by a killed process.
+/// Returns whether the path is a temporary file left by a killed process.
 bool is_left_behind(const std::filesystem::path& path);
 
 /// Locks a folder during its lifetime, for one process at a time. The system releases the lock when

@@ -32,8 +32,8 @@ std::string_view plain_message(std::string_view what) {
   return start == std::string_view::npos ? what : what.substr(start + 2);
 }
 
-/// Reads a text without storing anything. Refuses invalid JSON, deep nesting and duplicate keys in
-/// one object, of which nlohmann would silently keep the last.
+/// Reads a text without storing anything. Refuses invalid JSON, deep nesting, and duplicate keys in
+/// one object, since nlohmann would silently keep only the last one's value.
 class Checks : public nlohmann::json_sax<json> {
  public:
   Checks(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
@@ -89,7 +89,7 @@ class Checks : public nlohmann::json_sax<json> {
 
   std::string problem(std::size_t at, const std::string& token,
                       const json::exception& error) const {
-    constexpr int kNumberOverflow = 406;  // in nlohmann's numbering of exceptions
+    constexpr int kNumberOverflow = 406;  // nlohmann's number for this exception
     if (error.id == kNumberOverflow) {
       return fmt::format("the number {} is too large; write one up to 1e308", excerpt(token));
     }
@@ -104,7 +104,7 @@ class Checks : public nlohmann::json_sax<json> {
   std::string_view text_;
   std::string file_;
   int depth_ = 0;
-  std::vector<std::set<std::string>> keys_{};  // of the open objects
+  std::vector<std::set<std::string>> keys_{};  // keys of the open objects
 };
 
 template <class Json>

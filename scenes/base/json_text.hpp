@@ -25,9 +25,9 @@ Json parse_json(std::string_view text, const std::string& file);
 template <class Json>
 Json read_json_file(const std::filesystem::path& path);
 
-/// Returns a document as text, one element per line, each level indented by `indent` blanks; -1
-/// puts everything on one line. Bytes of strings that are not UTF-8 become the replacement
-/// character.
+/// Returns a document as text, with one element per line and each level indented by `indent`
+/// blanks; -1 puts everything on one line. Bytes in strings that are not UTF-8 become the
+/// replacement character.
 std::string json_text(const nlohmann::json& document, int indent = 2);
 std::string json_text(const nlohmann::ordered_json& document, int indent = 2);
 

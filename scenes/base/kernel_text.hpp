@@ -9,10 +9,10 @@
 
 namespace beambench {
 
-/// Returns the text of a kernel file; empty if the file does not exist.
+/// Returns the text of a kernel file, or an empty string if the file does not exist.
 std::string kernel_text(const std::filesystem::path& path);
 
-/// Returns the whole number at the start of a text, after blanks; nothing for `max` and `-1`.
+/// Returns the whole number at the start of a text, after blanks, or nothing for `max` and `-1`.
 std::optional<std::uint64_t> number_at(std::string_view text);
 
 /// Returns the number after a key at the beginning of a line: `MemAvailable: 123 kB` for

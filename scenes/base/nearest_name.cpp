@@ -11,9 +11,9 @@
 namespace beambench {
 namespace {
 
-/// A foreign name and the name used here. If a word has several meanings, the one among the
-/// candidate names applies, so that structures, parameters, scenes, commands and options can share
-/// this table.
+/// A word used by other programs, and beambench's name for the same thing. If a word has several
+/// meanings, the one among the candidate names applies, so structures, parameters, scenes, commands
+/// and options can share this table.
 struct Alias {
   std::string_view word;
   std::string_view name;
@@ -109,7 +109,8 @@ bool is_part_of(std::string_view word, std::string_view name) {
   }
 }
 
-/// Returns the only name that contains the word as a part; empty if none or several do.
+/// Returns the only name that contains the word as a part, or an empty string if none or several
+/// do.
 std::string only_whole_of(std::string_view word, std::span<const std::string> names) {
   std::string whole;
   for (const std::string& name : names) {
@@ -129,7 +130,7 @@ std::string lower_case(std::string_view word) {
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);  // distances of a's prefix to every prefix of b
+  std::vector<std::size_t> row(b.size() + 1);  // distance of a's prefix from every prefix of b
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::size_t diagonal = row[0];

@@ -20,10 +20,10 @@ namespace {
 using Type = ParameterInfo::Type;
 using Given = std::pair<std::string, std::string>;
 
-// Numbers are stored as doubles, which represent integers up to this size exactly.
+// Numbers are stored as doubles, which represent integers up to this one exactly.
 constexpr double kLargestInteger = 0x1p53;
 
-/// Parses the whole text as a number; nothing on failure.
+/// Parses the whole text as a number; returns nothing on failure.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -40,7 +40,7 @@ std::optional<bool> parse_flag(std::string_view text) {
 
 constexpr std::string_view kAuto = "auto";
 
-/// Parses one number for all axes, or three separated by x.
+/// Parses one number for all axes, or three numbers separated by x.
 std::optional<std::array<std::int32_t, 3>> parse_cells(std::string_view text) {
   std::array<std::int32_t, 3> cells{};
   std::size_t count = 0;
@@ -61,7 +61,7 @@ std::string cells_text(const std::array<std::int32_t, 3>& cells) {
   return equal ? fmt::format("{}", cells[0]) : fmt::format("{}", fmt::join(cells, "x"));
 }
 
-/// Returns the value's canonical text (and number), or nothing if it is invalid.
+/// A parsed value: its canonical text and its number.
 struct Parsed {
   std::string text;
   double number;
@@ -161,8 +161,8 @@ ParameterInfo plain_info(std::string name, Type type, std::string default_value,
       fmt::format("'{}': {}; write a name, or name:key=value,key=value", excerpt(text), why));
 }
 
-/// Removes the text before the first comma, and the comma, from the front of `text`, and returns
-/// it.
+/// Removes everything up to the first comma from the front of `text`, and returns it without the
+/// comma.
 std::string_view take_piece(std::string_view& text) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const std::string_view piece = text.substr(0, comma);
@@ -170,7 +170,7 @@ std::string_view take_piece(std::string_view& text) {
   return piece;
 }
 
-/// Returns whether a piece between commas continues the spec with a further `key=value`.
+/// Returns whether a piece between commas continues the spec with another `key=value`.
 bool continues_spec(std::string_view piece) {
   return piece.find('=') < piece.find(':');  // npos (not found) is the largest number
 }
@@ -357,7 +357,7 @@ std::vector<Spec> parse_spec_list(std::string_view text) {
   if (text.ends_with(',')) refuse(text, "a name is missing after the last comma");
   std::vector<Spec> specs;
   std::string_view rest = text;
-  std::size_t start = 0;  // of the spec being collected
+  std::size_t start = 0;  // start of the spec being collected
   take_piece(rest);
   while (!rest.empty()) {
     const std::size_t at = text.size() - rest.size();

@@ -20,7 +20,7 @@ struct Spec {
   friend bool operator==(const Spec&, const Spec&) = default;
 };
 
-/// Parses a spec. Throws InputError if the text is not of that form or has a key twice.
+/// Parses a spec. Throws InputError if the text does not have that form or contains a key twice.
 Spec parse_spec(std::string_view text);
 
 /// Splits `a:x=1,y=2,b` into the specs `a:x=1,y=2` and `b`: a comma starts a new spec unless an `=`
@@ -34,16 +34,16 @@ struct ParameterInfo {
   std::string name;
   Type type;
   std::string default_value;
-  double minimum = 0.0;  ///< of a number (including cells), inclusive
+  double minimum = 0.0;  ///< for a number (including cells); inclusive, like `maximum`
   double maximum = 0.0;
-  std::vector<std::string> choices;  ///< of a choice
+  std::vector<std::string> choices;  ///< for a choice
   std::string description;           ///< one sentence, units included
-  bool changes_hits = false;         ///< other values may cause wrong hits: not self-tested
+  bool changes_hits = false;         ///< other values may cause wrong hits and are not self-tested
 };
 
 ParameterInfo integer_parameter(std::string name, std::int64_t default_value, std::int64_t minimum,
                                 std::int64_t maximum, std::string description);
-/// Declares a whole number, or `auto`: the structure chooses.
+/// Declares a whole number or `auto`, with which the structure chooses.
 ParameterInfo integer_or_auto_parameter(std::string name, std::int64_t default_value,
                                         std::int64_t minimum, std::int64_t maximum,
                                         std::string description);
@@ -56,16 +56,16 @@ ParameterInfo choice_parameter(std::string name, std::string default_value,
 ParameterInfo cells_parameter(std::string name, std::string default_value, std::int64_t maximum,
                               std::string description);
 
-/// The values of one owner's parameters: given values, and defaults for the rest.
+/// The values of one owner's parameters, with defaults for those not given.
 class Parameters {
  public:
-  /// Checks every given value against `infos`. Throws InputError naming `owner`, the parameter, the
-  /// value, its valid range or choices and, for an unknown name, all valid names.
+  /// Checks every given value against `infos`. Throws an InputError that names `owner`, the
+  /// parameter, the value, its valid range or choices and, for an unknown name, all valid names.
   Parameters(std::string owner, std::span<const ParameterInfo> infos,
              std::span<const std::pair<std::string, std::string>> given);
 
-  /// Each of these throws std::logic_error if the owner did not declare such a parameter of that
-  /// type.
+  /// Each of these functions throws std::logic_error if the owner did not declare a parameter of
+  /// that name and type.
   std::int64_t integer(std::string_view name) const;
   /// Returns nothing for `auto`.
   std::optional<std::int64_t> integer_or_auto(std::string_view name) const;
@@ -79,12 +79,13 @@ class Parameters {
   /// owner declares and ignores it.
   void require_given_were_read() const;
 
-  /// Returns all parameters with their values in declared order, `max_level=6,max_objects=0`.
-  /// Numbers are in their shortest exact form, so that equal values print equally.
+  /// Returns all parameters with their values in declared order, such as
+  /// `max_level=6,max_objects=0`. Numbers are in their shortest exact form, so equal values print
+  /// alike.
   std::string canonical() const;
   /// Returns owner and canonical parameters, `samet:max_level=6,max_objects=0`, or the bare owner.
   std::string label() const;
-  /// Returns the same with only non-default values: `samet:max_level=6`.
+  /// Returns the same label with only non-default values: `samet:max_level=6`.
   std::string short_label() const;
   /// Returns name-value pairs as in canonical().
   std::vector<std::pair<std::string, std::string>> values() const;

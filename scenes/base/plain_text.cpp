@@ -12,7 +12,7 @@ std::string_view plain_text(std::string_view bytes, std::string_view file) {
   const bool has_wide_letter = bytes.size() > 1 && (bytes[0] == '\0') != (bytes[1] == '\0');
   if (is_marked || has_wide_letter) {
     throw InputError(
-        fmt::format("{}: it is a text in UTF-16, which is not read; save it as UTF-8", file));
+        fmt::format("{}: it is UTF-16, which is not supported; save it as UTF-8", file));
   }
   if (bytes.starts_with(kUtf8)) bytes.remove_prefix(kUtf8.size());
   return bytes;

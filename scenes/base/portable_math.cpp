@@ -12,7 +12,7 @@ constexpr double kHalfPiLow = 0x1.0b4611a626331p-34;
 constexpr double kLn2High = 0x1.62e42feep-1;
 constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
 
-/// Returns x minus the nearest multiple of (high + low), and that multiple.
+/// A number reduced by a multiple of (high + low): the rest, and the multiple that was subtracted.
 struct Reduced {
   double rest;
   long multiple;
@@ -26,7 +26,7 @@ Reduced reduce(double x, double high, double low) {
 /// Returns the sum of (-1)^k x^(2k) / (first (first + 1) ... (first + 2k - 1)): the Taylor series
 /// of cos x for first = 1 and of sin x / x for first = 2.
 double alternating_series(double x, int first) {
-  constexpr int kTerms = 11;  // the next is below 1e-23 for |x| <= pi/4
+  constexpr int kTerms = 11;  // the next term is below 1e-23 for |x| <= pi/4
   double sum = 1.0;
   for (int k = kTerms; k >= 1; --k) {
     const int i = first + 2 * (k - 1);
@@ -35,7 +35,7 @@ double alternating_series(double x, int first) {
   return sum;
 }
 
-/// Returns the sine after `quarters` more quarter turns.
+/// Returns the sine of the angle plus `quarters` quarter turns.
 double sine(double radians, long quarters) {
   const auto [rest, multiple] = reduce(radians, kHalfPiHigh, kHalfPiLow);
   const long quadrant = ((multiple + quarters) % 4 + 4) % 4;
@@ -51,7 +51,7 @@ double portable_sin(double radians) { return sine(radians, 0); }
 double portable_cos(double radians) { return sine(radians, 1); }
 
 double portable_exp(double x) {
-  constexpr int kTerms = 16;  // the next is below 1e-22 for |x| <= ln(2) / 2
+  constexpr int kTerms = 16;  // the next term is below 1e-22 for |x| <= ln(2) / 2
   const auto [rest, multiple] = reduce(x, kLn2High, kLn2Low);
   double sum = 1.0;
   for (int k = kTerms; k >= 1; --k) sum = 1.0 + sum * rest / k;

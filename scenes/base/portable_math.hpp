@@ -10,6 +10,6 @@ namespace beambench {
 double portable_sin(double radians);
 double portable_cos(double radians);
 double portable_exp(double x);
-double portable_log(double x);  ///< of a positive number
+double portable_log(double x);  ///< x must be positive
 
 }  // namespace beambench

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLongestToken = 80;
 constexpr std::size_t kLongestMessage = 4000;
-constexpr std::size_t kMessageEnd = 1500;  // kept at the end, if the middle is omitted
+constexpr std::size_t kMessageEnd = 1500;  // kept from the end if the middle is omitted
 constexpr std::string_view kLeftOut = "...";
 
 struct Character {
@@ -34,7 +34,7 @@ bool is_continuation(std::string_view text, std::size_t i) {
 /// Returns the first character of a nonempty text (The Unicode Standard, table 3-7).
 Character first_character(std::string_view text) {
   struct Form {
-    std::uint32_t mask, lead, least;  // of the first byte; the lowest code with that many bytes
+    std::uint32_t mask, lead, least;  // first byte's mask and value; lowest code of this length
   };
   constexpr std::array<Form, 4> kForms{{{0x80U, 0x00U, 0x0U},
                                         {0xE0U, 0xC0U, 0x80U},
@@ -82,7 +82,7 @@ std::size_t cut_near(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// Reads the byte whose escape, such as `\x1b`, is at `text[at...]`.
+/// Reads the byte whose escape, such as `\x1b`, begins at `text[at]`.
 bool read_escaped(std::string_view text, std::size_t at, char& byte) {
   if (text.size() < at + 4 || text[at + 1] != 'x') return false;
   unsigned int value = 0;

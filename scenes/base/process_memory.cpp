@@ -30,8 +30,8 @@ std::uint64_t left_of(std::uint64_t limit, std::uint64_t used) {
   return limit > used ? limit - used : 0;
 }
 
-/// Returns the memory left to one control group. Its file cache can be reclaimed and does not
-/// count.
+/// Returns the memory left to one control group. The group's file cache can be reclaimed and does
+/// not count as used.
 std::optional<std::uint64_t> left_of_group(const fs::path& folder, const char* limit_name,
                                            const char* used_name, const char* cached_name) {
   const auto limit = number_at(kernel_text(folder / limit_name));
@@ -41,7 +41,7 @@ std::optional<std::uint64_t> left_of_group(const fs::path& folder, const char* l
   return left_of(*limit, left_of(*used, cached));
 }
 
-/// Returns the text of BEAMBENCH_MEMORY; nothing if it is not set.
+/// Returns the number of bytes in BEAMBENCH_MEMORY, or nothing if the variable is not set.
 std::optional<std::uint64_t> own_limit() {
   const char* const set = std::getenv("BEAMBENCH_MEMORY");
   if (set == nullptr || *set == '\0') return std::nullopt;
@@ -88,15 +88,15 @@ std::optional<std::uint64_t> mapped_data_bytes() { return status_bytes("VmData:"
 
 std::optional<std::uint64_t> peak_memory_growth(const std::function<void()>& work) {
 #ifdef __GLIBC__
-  ::malloc_trim(0);  // otherwise the work could reuse freed memory unnoticed
+  ::malloc_trim(0);  // otherwise `work` could reuse freed memory unnoticed
 #endif
-  // Not a write_file: this is a switch of the kernel. 5 resets the peak (proc(5)).
+  // `write_file` is not used, because this is a kernel switch. 5 resets the peak (proc(5)).
   std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
   const auto before = status_bytes("VmRSS:");
   const auto peak_before = status_bytes("VmHWM:");
   work();
   const auto peak = status_bytes("VmHWM:");
-  // A peak that was not reset is not about this work.
+  // A peak that was not reset may have been reached before this work.
   constexpr std::uint64_t kAgree = std::uint64_t{4} << 20U;
   if (!before || !peak_before || !peak || *peak_before > *before + kAgree) return std::nullopt;
   return left_of(*peak, *before);

@@ -9,7 +9,7 @@
 namespace beambench {
 
 /// A generator based on std::mt19937_64, whose sequence the C++ standard fixes, with our own
-/// distributions (those of the standard library differ between implementations).
+/// distributions (the standard library's distributions differ between implementations).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -5,8 +5,8 @@
 
 namespace beambench {
 
-/// Returns a counter-clockwise rotation about the x (0), y (1) or z (2) axis, seen from its
-/// positive end. Use this rather than glm::rotate, whose sine comes from the library.
+/// Returns a rotation about the x (0), y (1) or z (2) axis, counter-clockwise as seen from the
+/// axis's positive end. Use this rather than glm::rotate, whose sine comes from the library.
 glm::dmat4 rotation(int axis, double degrees);
 
 /// Returns a translation.

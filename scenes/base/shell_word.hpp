@@ -6,8 +6,8 @@
 
 namespace beambench {
 
-/// Returns a word quoted for a shell, in printable form: unchanged if safe, otherwise in single
-/// quotes, or in the form `$'esc\x1b'` of bash, ksh and zsh if it has unprintable characters.
+/// Returns a word quoted for a shell, in printable form: unchanged if safe; in the form
+/// `$'esc\x1b'` of bash, ksh and zsh if it has unprintable characters; otherwise in single quotes.
 std::string shell_quoted(std::string_view word);
 
 }  // namespace beambench

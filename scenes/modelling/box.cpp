@@ -41,7 +41,7 @@ PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper)
 }
 
 PolygonMesh beveled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel) {
-  // Each corner becomes three vertices, 3 * corner + axis, one on the face of each axis.
+  // Each corner becomes three vertices, 3 * corner + axis, one on the face across each axis.
   PolygonMesh mesh;
   const auto outer = corners_of(lower, upper);
   const auto inner = corners_of(lower + bevel, upper - bevel);
@@ -86,7 +86,7 @@ PolygonMesh square_ring(double half, double hole, double bottom, double top) {
           {{-size, -size, z}, {size, -size, z}, {size, size, z}, {-size, size, z}});
     }
   }
-  for (std::uint32_t i = 0; i < 4; ++i) {  // outer corners i, inner ones 4 + i, upper ones + 8
+  for (std::uint32_t i = 0; i < 4; ++i) {  // outer corners i, inner 4 + i; upper: 8 more
     const std::uint32_t next = (i + 1) % 4;
     mesh.polygons.push_back({i, next, next + 8, i + 8});
     mesh.polygons.push_back({i + 8, next + 8, next + 12, i + 12});

@@ -14,7 +14,7 @@ PolygonMesh box(const glm::dvec3& lower, const glm::dvec3& upper);
 PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper);
 
 /// Returns the box with its edges cut off by `bevel` on both sides: 6 faces, 12 edges, 8 corner
-/// triangles. 0 < bevel < half of every extent.
+/// triangles. `bevel` must be positive and less than half of every extent.
 PolygonMesh beveled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel);
 
 /// Returns the square plate |x|, |y| <= half between two heights, with the hole |x|, |y| < hole: 16
@@ -26,9 +26,9 @@ PolygonMesh square_ring(double half, double hole, double bottom, double top);
 PolygonMesh bar(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& outward,
                 double thickness);
 
-/// The bracing of a face between two posts, whose points are listed level by level from below: a
-/// crossbar at every level and two diagonals in every panel. Crossing bars differ in thickness, so
-/// that none of their faces are coplanar.
+/// The bracing of a face between two posts whose points are listed level by level from below. It
+/// has a crossbar at every level and two diagonals in every panel. Crossing bars differ in
+/// thickness, so that none of their faces are coplanar.
 struct Bracing {
   double crossbar;
   double diagonal;

@@ -31,7 +31,7 @@ PolygonMesh extruded(const FlatShape& shape, double depth, Ends ends) {
     if (ends == Ends::kBoth) mesh.polygons.emplace_back(corners.rbegin(), corners.rend());
   }
   for (const auto& [a, b] : edges) {
-    if (edges.contains({b, a})) continue;  // a seam
+    if (edges.contains({b, a})) continue;  // an inner seam
     mesh.polygons.push_back({a, b, b + front, a + front});
   }
   return mesh;

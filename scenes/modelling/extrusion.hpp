@@ -11,7 +11,8 @@
 namespace beambench::scenes::modelling {
 
 /// A shape in the plane z = 0: polygons over shared points, counter-clockwise seen from +z. A shape
-/// with a hole is several polygons around it; the seams between them are edges of two polygons.
+/// with a hole consists of several polygons around the hole; each seam between them is an edge of
+/// two polygons.
 struct FlatShape {
   std::vector<glm::dvec2> points;
   std::vector<PolygonMesh::Corners> polygons;

@@ -23,7 +23,8 @@ glm::dvec3 gradient(const Field& field, const glm::dvec3& place, double step) {
   return result;
 }
 
-/// Takes Newton steps along the gradient, none longer than half of `reach`.
+/// Moves a point onto the surface by Newton steps along the gradient, none longer than half of
+/// `reach`.
 glm::dvec3 onto_surface(const Field& field, glm::dvec3 place, double reach) {
   for (int i = 0; i < 4; ++i) {
     const glm::dvec3 slope = gradient(field, place, 1e-4 * reach);
@@ -36,8 +37,8 @@ glm::dvec3 onto_surface(const Field& field, glm::dvec3 place, double reach) {
   return place;
 }
 
-/// The field on a grid, with a vertex in every cell that the surface crosses and a quad at every
-/// crossed edge.
+/// Builds a surface from a field on a grid, with a vertex in every cell that the surface crosses
+/// and a quad at every edge that it crosses.
 class SurfaceNet {
  public:
   SurfaceNet(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper, double cell)
@@ -132,11 +133,11 @@ class SurfaceNet {
   double cell_;
   Point points_{};
   std::vector<double> values_;
-  std::vector<std::uint32_t> vertex_of_;  ///< of the cell with this point as its lower corner
+  std::vector<std::uint32_t> vertex_of_;  ///< vertex of the cell above each grid point
   PolygonMesh mesh_;
 };
 
-/// Moves vertices one by one, undoing moves that would flip a triangle.
+/// Moves vertices one by one onto borders, undoing moves that would flip a triangle.
 class BorderDrawing {
  public:
   BorderDrawing(PolygonMesh mesh, const Field& surface, const Region& region)
@@ -160,7 +161,7 @@ class BorderDrawing {
   void draw(std::uint32_t vertex) {
     const glm::dvec3 start = mesh_.vertices[vertex];
     glm::dvec3 nearest = start;
-    double best = 0.55;  // of an edge's length
+    double best = 0.55;  // share of an edge's length
     double edge_length = 0.0;
     for (const std::uint32_t triangle : around_[vertex]) {
       for (const std::uint32_t other : mesh_.polygons[triangle]) {

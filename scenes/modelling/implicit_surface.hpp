@@ -24,9 +24,10 @@ double limb_field(const glm::dvec3& place, const Limb& limb);
 /// Returns the union of two bodies, with the seam filled in over a distance of about `blend`.
 double joined(double a, double b, double blend);
 
-/// Returns the surface of the field inside a box, as quads whose corners lie on it, one for each
-/// cube of side `cell` that it crosses (surface nets: Gibson 1998). It faces the positive side of
-/// the field. The body must end inside the box and be thicker than a cell.
+/// Returns the surface of the field inside a box, as quads. Their corners lie on the surface, one
+/// for each cube of side `cell` that the surface crosses (surface nets: Gibson 1998). The quads
+/// face the positive side of the field. The body must end inside the box and be thicker than a
+/// cell.
 PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper,
                              double cell);
 
@@ -34,10 +35,11 @@ PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const 
 using Region = std::function<int(const glm::dvec3&)>;
 
 /// Moves vertices of triangles along the surface onto the borders between regions, so that borders
-/// are lines of edges wherever this does not flip a triangle.
+/// follow edges wherever this does not flip a triangle.
 PolygonMesh drawn_to_borders(PolygonMesh mesh, const Field& surface, const Region& region);
 
-/// Removes the polygons with all corners inside the body, for parts that protrude from it.
+/// Returns the mesh without the polygons that have all corners inside the body, for parts that
+/// protrude from a body.
 PolygonMesh outside(const PolygonMesh& mesh, const Field& body);
 
 /// Returns the mean of a polygon's corners.

@@ -27,7 +27,8 @@ Profile& Profile::curve(const glm::dvec2& to, double bulge, int steps) {
 }
 
 Profile& Profile::ball(double center, double radius, int steps) {
-  // First the step whose radius reaches that of the present point, then equal angles to the top.
+  // Finds the angle at which the ball has the current point's radius, then takes equal steps to the
+  // top.
   const double share = points_.back().x / radius;
   double start = 0.5 * std::numbers::pi;
   for (double half = 0.25 * std::numbers::pi; half > 1e-12; half *= 0.5) {
@@ -43,7 +44,7 @@ Profile& Profile::ball(double center, double radius, int steps) {
 
 PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_turn) {
   PolygonMesh mesh;
-  std::vector<std::uint32_t> first;  // ring (or one vertex on the axis) by profile point
+  std::vector<std::uint32_t> first;  // by profile point: its ring's first vertex
   for (const glm::dvec2& point : profile) {
     first.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
     const int copies = point.x == 0.0 ? 1 : sides;

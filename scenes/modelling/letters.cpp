@@ -13,7 +13,7 @@ constexpr double kGap = 0.14;    // between two letters
 constexpr double kBlank = 0.45;  // a blank's width
 
 /// Returns a ring between an outer and an inner outline (counter-clockwise, with equal numbers of
-/// points): two concave halves with seams from outer to inner at point 0 and at point `half`.
+/// points): two concave halves, with seams between the outlines at point 0 and at point `half`.
 FlatShape ring(const std::vector<glm::dvec2>& outer, const std::vector<glm::dvec2>& inner,
                std::uint32_t half) {
   const auto n = static_cast<std::uint32_t>(outer.size());
@@ -30,7 +30,7 @@ FlatShape ring(const std::vector<glm::dvec2>& outer, const std::vector<glm::dvec
   return shape;
 }
 
-/// A: the legs from the foot to the bar and, above the bar, a ring around the hole.
+/// Returns an A: the legs from the foot to the bar and, above the bar, a ring around the hole.
 Letter letter_a() {
   FlatShape shape;
   shape.points = {{0.00, 0.00}, {0.23, 0.00}, {0.29, 0.22}, {0.51, 0.22},
@@ -40,7 +40,7 @@ Letter letter_a() {
   return {shape, 0.80};
 }
 
-/// B: a ring around both holes and the bar between them, split into a left and two right parts.
+/// Returns a B: a ring around both holes and the bar between them, in one left and two right parts.
 Letter letter_b() {
   FlatShape shape;
   shape.points = {{0.00, 0.00}, {0.50, 0.00}, {0.66, 0.14}, {0.66, 0.40}, {0.54, 0.51},

@@ -7,15 +7,15 @@
 
 namespace beambench::scenes::modelling {
 
-/// A point for (u, v) in [0, 1]^2; the surface faces du x dv.
+/// Returns the point for (u, v) in [0, 1]^2. The surface faces du x dv.
 using SurfaceFunction = std::function<glm::dvec3(double u, double v)>;
 
-/// Returns a grid of u_steps x v_steps quads over the function, welded: closed where opposite edges
-/// coincide, with triangles where a row shrinks to a point.
+/// Returns a welded grid of u_steps x v_steps quads over the function. It is closed where opposite
+/// edges coincide, and has triangles where a row shrinks to a point.
 PolygonMesh parametric_surface(const SurfaceFunction& surface, int u_steps, int v_steps);
 
-/// Returns the ellipsoid around the origin with these half-axes: `slices` around z, `stacks` from
-/// pole to pole, triangles at the poles.
+/// Returns the ellipsoid around the origin with these half-axes, divided into `slices` around z and
+/// `stacks` from pole to pole, with triangles at the poles.
 PolygonMesh ellipsoid(const glm::dvec3& half_axes, int slices, int stacks);
 
 }  // namespace beambench::scenes::modelling

@@ -18,7 +18,7 @@
 namespace beambench::scenes::modelling {
 namespace {
 
-/// Finds the first vertex within a distance: vertices are sorted into cells of that size.
+/// Finds the first vertex within a distance. Vertices are sorted into cells of that size.
 class NearVertices {
  public:
   explicit NearVertices(double distance) : distance_(distance) {}
@@ -98,7 +98,7 @@ PolygonMesh welded(const PolygonMesh& mesh) {
 
   PolygonMesh result;
   NearVertices near(1e-9 * largest);
-  std::vector<std::uint32_t> index;  // of the mesh's vertices in the result
+  std::vector<std::uint32_t> index;  // the mesh's vertices as indices in the result
   for (const glm::dvec3& vertex : mesh.vertices) {
     const auto found = near.find(result.vertices, vertex);
     index.push_back(found ? *found : static_cast<std::uint32_t>(result.vertices.size()));

@@ -1,8 +1,8 @@
 #pragma once
-// Polygon meshes, the type that the functions in this folder take and return.
+// Polygon meshes, which the functions in this folder take and return.
 //
 // A generator models in double and passes the result to a `SceneBuilder`, which rounds once:
-//   polygon_mesh.hpp        the value; append, transform, weld
+//   polygon_mesh.hpp        the mesh type; append, transform, weld
 //   box.hpp                 boxes, square rings, bars and bracing
 //   walls.hpp               walls with openings, moldings
 //   extrusion.hpp           a flat shape extruded along z: plates, fins
@@ -11,8 +11,8 @@
 //   sweep.hpp               an outline or a circle swept along a path
 //   parametric_surface.hpp  a grid of quads over a function of two parameters; ellipsoid
 //   implicit_surface.hpp    the zero set of a field
-//   subdivide.hpp           triangulated; subdivided_to: exactly n polygons
-//   add_mesh.hpp            into the scene, flat or smooth
+//   subdivide.hpp           division into triangles, or into exactly n polygons
+//   add_mesh.hpp            adds a mesh to the scene, flat or smooth
 //
 // Meshes face outward (counter-clockwise seen from outside) and hold only visible surfaces: callers
 // can leave out caps and bottoms. To reach an exact number of polygons, model with slightly fewer,
@@ -40,10 +40,10 @@ struct PolygonMesh {
   std::size_t size() const { return polygons.size(); }
 };
 
-/// Adds all of `more`, with separate vertices.
+/// Adds all polygons of `more`, with separate vertices.
 void append(PolygonMesh& mesh, const PolygonMesh& more);
 
-/// Returns the mesh moved by an affine transform; windings are reversed if it mirrors.
+/// Returns the mesh moved by an affine transform. Windings are reversed if the transform mirrors.
 PolygonMesh transformed(PolygonMesh mesh, const glm::dmat4& transform);
 
 /// Returns the mesh turned inside out: every winding reversed.
@@ -54,9 +54,9 @@ glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corn
 
 using beambench::rotation;
 
-/// Merges vertices closer together than 1e-9 of the mesh's largest coordinate into the first of
-/// them, so that edges are shared. Corners that coincide with the previous one are dropped, as are
-/// polygons left with fewer than three.
+/// Returns the mesh with vertices closer together than 1e-9 of the mesh's largest coordinate merged
+/// into the first of them, so that edges are shared. Corners that coincide with the previous one
+/// are dropped, as are polygons left with fewer than three corners.
 PolygonMesh welded(const PolygonMesh& mesh);
 
 }  // namespace beambench::scenes::modelling

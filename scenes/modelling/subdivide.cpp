@@ -58,7 +58,7 @@ class Subdivider {
 
   static Edge edge(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 
-  /// Enters a new or changed polygon into the queue and the edges.
+  /// Enters a new or changed polygon into the queue and the edge table.
   void note(std::uint32_t polygon) {
     const Corners& corners = mesh_.polygons[polygon];
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -72,7 +72,7 @@ class Subdivider {
     if (areas_[polygon] > 0.0) largest_.emplace(areas_[polygon], ~polygon);
   }
 
-  /// Takes a polygon out of the edges, before it changes.
+  /// Removes a polygon from the edge table before the polygon changes.
   void forget(std::uint32_t polygon) {
     const Corners& corners = mesh_.polygons[polygon];
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -80,7 +80,7 @@ class Subdivider {
     }
   }
 
-  /// Returns the largest convex polygon; of equal ones, the first.
+  /// Returns the largest convex polygon, or the first of several equally large ones.
   std::uint32_t next() {
     while (!largest_.empty()) {
       const auto [size, complement] = largest_.top();
@@ -88,7 +88,7 @@ class Subdivider {
       if (areas_[~complement] == size) return ~complement;
     }
     throw std::invalid_argument(
-        fmt::format("no polygon is left to split: {} of {} are there", mesh_.size(), count_));
+        fmt::format("no polygon is left to split: there are {} of {}", mesh_.size(), count_));
   }
 
   void split(std::uint32_t polygon) {
@@ -155,8 +155,8 @@ class Subdivider {
     }
   }
 
-  /// Inserts a vertex on a polygon's edge; then cuts from there to the corner that divides the
-  /// polygon most evenly.
+  /// Inserts a vertex on a polygon's edge. If `and_cut`, then cuts the polygon from this vertex to
+  /// the corner that divides it most evenly.
   void insert_corner(std::uint32_t polygon, const Edge& at, std::uint32_t vertex, bool and_cut) {
     Corners corners = mesh_.polygons[polygon];
     std::size_t i = 0;
@@ -177,7 +177,7 @@ class Subdivider {
   PolygonMesh mesh_;
   std::size_t count_;
   std::map<Edge, std::vector<std::uint32_t>> sharing_;
-  std::vector<double> areas_;  ///< of convex polygons; 0 for those that stay whole
+  std::vector<double> areas_;  ///< areas of convex polygons; 0 for polygons that stay whole
   std::priority_queue<std::pair<double, std::uint32_t>> largest_;  ///< area, ~polygon
 };
 
@@ -218,8 +218,8 @@ PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count) {
   constexpr std::size_t kMaxPolygons = 100'000'000;
   if (count > kMaxPolygons) {
     throw std::invalid_argument(
-        fmt::format("{} polygons are requested, more than {}: had the scene too "
-                    "many before?",
+        fmt::format("{} polygons are requested, more than {}: did the scene already "
+                    "have too many?",
                     count, kMaxPolygons));
   }
   if (mesh.size() > count) {

@@ -20,8 +20,8 @@ glm::dvec3 reflected(const glm::dvec3& vector, const glm::dvec3& mirror) {
   return vector - mirror * (2.0 * glm::dot(mirror, vector) / glm::dot(mirror, mirror));
 }
 
-/// Returns the frame's side at the next point: reflected at the step, then at the change of
-/// direction.
+/// Returns the frame's side at the next point: `side`, reflected first along the step and then
+/// along the change of direction.
 glm::dvec3 carried(const glm::dvec3& side, const glm::dvec3& step, const glm::dvec3& from,
                    const glm::dvec3& to) {
   const glm::dvec3 turn = to - reflected(from, step);

@@ -10,7 +10,8 @@
 
 namespace beambench::scenes::modelling {
 
-/// The ends of a sweep that are closed by a polygon. An end of size 0 is a tip and needs none.
+/// The ends of a sweep that are closed by a polygon. An end of size 0 is a tip and needs no
+/// polygon.
 enum class Caps : std::uint8_t { kNone, kStart, kEnd, kBoth };
 
 /// Returns a regular polygon of radius 1, counter-clockwise.
@@ -20,7 +21,7 @@ std::vector<glm::dvec2> circle(int sides);
 /// twist (rotation-minimizing frames by double reflection: Wang, Juettler, Zheng and Liu 2008) and
 /// scaled by `scales`, one for each path point. Returns a ring of quads between consecutive path
 /// points, or of triangles at a tip. `side` is made perpendicular to the path; it must not be
-/// parallel to its start.
+/// parallel to the path's start.
 PolygonMesh sweep(std::span<const glm::dvec2> outline, std::span<const glm::dvec3> path,
                   std::span<const double> scales, const glm::dvec3& side, Caps caps);
 

@@ -30,8 +30,8 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Serves the mesh file from memory, and its companions, read-only. Must outlive all of Assimp's
-/// reads.
+/// Serves the mesh file from memory, and its companions, read-only. Must outlive all reads by
+/// Assimp.
 class AssimpFiles : public Assimp::IOSystem {
  public:
   /// Serves `bytes` as the mesh `name` in the folder of the companions. The bytes and the
@@ -53,8 +53,8 @@ class AssimpFiles : public Assimp::IOSystem {
   std::filesystem::path relative(const std::filesystem::path& name) const {
     return name.lexically_relative(companions_->folder());
   }
-  /// Returns nothing for a companion that cannot or must not be read; the effect depends on
-  /// Assimp's importer.
+  /// Returns an empty string for a companion that cannot or must not be read; the consequence
+  /// depends on Assimp's importer.
   std::string_view companion_bytes(const char* name) {
     try {
       return companions_->read(relative(name));
@@ -72,13 +72,14 @@ Assimp::IOStream* AssimpFiles::Open(const char* name, const char* mode) {
   if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
   const std::string_view bytes = name == name_ ? bytes_ : companion_bytes(name);
   if (bytes.empty()) return nullptr;
-  // Assimp passes it back to Close.
+  // Assimp passes the stream back to Close.
   return std::make_unique<Assimp::MemoryIOStream>(
              reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size())
       .release();
 }
 
-/// Incremented whenever this file or its callees read a mesh differently.
+/// The version of this importer; increment it whenever this file or its callees read a mesh
+/// differently.
 constexpr int kOwnVersion = 2;
 
 constexpr unsigned kSteps =
@@ -157,7 +158,7 @@ ImportedMesh import_by_assimp(std::string_view bytes, const std::string& ending,
   MeshCompanions companions(path, bytes.size());
   const std::string name = (companions.folder() / ("mesh." + ending)).string();
   Assimp::Importer importer;
-  // The importer owns it.
+  // The importer owns the handler.
   importer.SetIOHandler(std::make_unique<AssimpFiles>(name, bytes, companions).release());
   const aiScene& scene = read_scene(importer, name, path);
 

@@ -17,8 +17,8 @@ namespace beambench::scenes::mesh {
 namespace {
 
 constexpr double kMargin = 1.08;
-/// The minimum distance between an eye and its target, relative to the size of the coordinates: any
-/// closer, the two might coincide in float.
+/// The minimum distance between an eye and its target, relative to the size of the coordinates. At
+/// smaller distances, the two might coincide in float.
 constexpr double kMinDistance = 1e-5;
 
 /// A direction given by its components toward the right, the top and the front of the mesh.
@@ -54,7 +54,7 @@ ImageAxes image_axes(const View& view, const Orientation& mesh) {
   return axes;
 }
 
-/// The shift of an eye at (u, v, distance), sideways and back, that brings all points within
+/// The position (u, v, distance) of an eye, relative to the center, that sees all points within
 /// `slope` on all sides. For a point (x, z) this means that x - u and u - x are at most slope
 /// (distance - z).
 struct Fit {

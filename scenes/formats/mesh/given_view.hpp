@@ -8,8 +8,8 @@
 
 namespace beambench::scenes::mesh {
 
-/// The view of a mesh chosen by a person or stated in its file. For a closed interior, anything
-/// fitted to the mesh would lie outside its walls.
+/// The view of a mesh chosen by a person or stated in its file. Needed for closed interiors,
+/// because a camera or light fitted to the mesh would lie outside its walls.
 struct GivenView {
   std::vector<Camera> cameras;
   std::vector<Light> lights;

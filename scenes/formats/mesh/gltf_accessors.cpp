@@ -41,8 +41,7 @@ const unsigned char* elements_in(std::span<const unsigned char> view, std::size_
   const bool fits = offset <= view.size() && view.size() - offset >= size &&
                     (view.size() - offset - size) / stride >= count - 1;
   if (!fits) {
-    refuse_gltf(
-        fmt::format("{} has {} elements, which is more than is in its buffer view", user, count));
+    refuse_gltf(fmt::format("{} has {} elements, more than its buffer view contains", user, count));
   }
   return view.data() + offset;
 }
@@ -164,7 +163,7 @@ void GltfElements::read_sparse(const tinygltf::Model& model, int number) {
   const bool rising =
       std::adjacent_find(sparse_.begin(), sparse_.end(), std::greater_equal<>()) == sparse_.end();
   if (!rising || sparse_.back() >= count_) {
-    refuse_gltf(fmt::format("{} has indices that do not rise, or are too large", user));
+    refuse_gltf(fmt::format("{} has indices that do not increase, or are too large", user));
   }
 }
 
@@ -200,8 +199,7 @@ GltfNumbers::GltfNumbers(const tinygltf::Model& model, int accessor, int type,
   if (is_number_type(elements_.accessor().componentType) && elements_.accessor().type == type) {
     return;
   }
-  refuse_gltf(
-      fmt::format("{} of {} is not of the type that it must have", name_of(accessor), user));
+  refuse_gltf(fmt::format("{} of {} does not have the required type", name_of(accessor), user));
 }
 
 double GltfNumbers::at(std::size_t index, std::size_t number) const {

@@ -19,9 +19,9 @@ inline constexpr std::string_view kPrimitive = "a primitive";
 /// outlive the model.
 class GltfElements {
  public:
-  /// Throws InputError with the names of the accessor and its user if it does not exist, is not
-  /// entirely within its buffer, or does not define its elements. Allocates memory only for sparse
-  /// elements, which are in the file.
+  /// Throws InputError with the names of the accessor and its user if the accessor does not exist,
+  /// is not entirely within its buffer, or does not define its elements. Allocates memory only for
+  /// sparse elements, so their number is limited by the size of the file.
   GltfElements(const tinygltf::Model& model, int accessor, std::string_view user = kPrimitive);
 
   std::size_t size() const { return count_; }
@@ -33,7 +33,7 @@ class GltfElements {
   void read_sparse(const tinygltf::Model& model, int number);
 
   const tinygltf::Accessor* accessor_;
-  const unsigned char* first_ = nullptr;  ///< null: all are 0, except the sparse ones
+  const unsigned char* first_ = nullptr;  ///< null: all elements are 0, except the sparse ones
   std::size_t stride_ = 0;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> sparse_;  ///< indices, ascending
@@ -59,7 +59,7 @@ class GltfNumbers {
 /// Positions, as float, or (KHR_mesh_quantization) as integers, normalized or not.
 class GltfPositions {
  public:
-  /// Throws InputError naming the accessor when it does not have positions.
+  /// Throws InputError naming the accessor if it does not contain positions.
   GltfPositions(const tinygltf::Model& model, int accessor);
 
   std::size_t size() const { return elements_.size(); }
@@ -72,7 +72,7 @@ class GltfPositions {
 /// Indices of one, two or four bytes.
 class GltfIndices {
  public:
-  /// Throws InputError naming the accessor when it does not have indices.
+  /// Throws InputError naming the accessor if it does not contain indices.
   GltfIndices(const tinygltf::Model& model, int accessor);
 
   std::size_t size() const { return elements_.size(); }

@@ -18,7 +18,7 @@ namespace {
 
 using Value = std::array<double, 4>;
 
-/// Returns the weighted sum of both.
+/// Returns the weighted sum of two values.
 Value sum(double a_factor, const Value& a, double b_factor, const Value& b) {
   Value result{};
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = a_factor * a[i] + b_factor * b[i];
@@ -42,7 +42,7 @@ double portable_small_arcsine(double sine) {
   return angle;
 }
 
-/// Interpolates between two rotations, the shorter way around.
+/// Interpolates between two rotations along the shorter arc.
 Value slerp(const Value& from, const Value& to, double share) {
   const Value a = normalized(from);
   Value b = normalized(to);
@@ -124,7 +124,7 @@ GltfAnimation::GltfAnimation(const tinygltf::Model& model, int number) {
       refuse_gltf(fmt::format("{} is for node {}, which has a matrix", user, channel.node));
     }
     if (!targets_.emplace(channel.node, channel.path).second) {
-      refuse_gltf(fmt::format("{} is for the {} of node {}, as is one before it", user,
+      refuse_gltf(fmt::format("{} is for the {} of node {}, as is an earlier channel", user,
                               given.target_path, channel.node));
     }
     const tinygltf::AnimationSampler& sampler =

@@ -17,8 +17,8 @@ class GltfAnimation {
  public:
   /// Reads an animation. Throws an InputError that names the channel or sampler if it is malformed:
   /// an accessor that is missing or of another type, times that are not finite or do not increase,
-  /// values that are not finite or not one per time (three for CUBICSPLINE), an unknown
-  /// interpolation, two channels for the same target, or a node with a matrix.
+  /// values that are not finite, or whose number is not one per time (three for CUBICSPLINE), an
+  /// unknown interpolation, two channels for the same target, or a node with a matrix.
   GltfAnimation(const tinygltf::Model& model, int number);
 
   /// Returns the last time, in seconds.
@@ -28,7 +28,7 @@ class GltfAnimation {
     const auto target = targets_.lower_bound({node, Path::kTranslation});
     return target != targets_.end() && target->first == node;
   }
-  /// Returns how many channels change anything else: morph targets, or targets defined by
+  /// Returns the number of channels with other targets: morph targets, or targets defined by
   /// extensions.
   std::size_t others() const { return others_; }
 

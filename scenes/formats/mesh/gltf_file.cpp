@@ -25,8 +25,8 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Prefixes of extensions that only concern appearance, or are supported. Without any other
-/// required extension, the file would describe a different shape.
+/// Prefixes of extensions that affect only the appearance, or are supported. If any other required
+/// extension were ignored, the shape would be different.
 constexpr std::array<std::string_view, 9> kHarmless = {
     "KHR_materials_", "KHR_texture_",          "EXT_texture_",
     "MSFT_texture_",  "KHR_lights_",           "EXT_lights_",
@@ -38,10 +38,10 @@ void require_known_extensions(const tinygltf::Model& model) {
         std::any_of(kHarmless.begin(), kHarmless.end(),
                     [&](std::string_view start) { return name.starts_with(start); });
     if (harmless) continue;
-    throw InputError(fmt::format(
-        "it requires the extension '{}', which is not supported; export it without that, for "
-        "compressed geometry uncompressed",
-        name));
+    throw InputError(
+        fmt::format("it requires the extension '{}', which is not supported; export it without "
+                    "that extension, for example without compression",
+                    name));
   }
 }
 
@@ -49,7 +49,7 @@ void require_known_extensions(const tinygltf::Model& model) {
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  constexpr std::size_t kLongest = 300;  // a data URI may be in it
+  constexpr std::size_t kLongest = 300;  // the text may contain a data URI
   if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
   return text.empty() ? "no reason is known" : text;
@@ -81,7 +81,7 @@ std::vector<std::string> uris_of_buffer_files(std::string_view bytes) {
   return uris;
 }
 
-/// Returns the text with each `%HH` decoded (RFC 3986, 2.1).
+/// Returns the string with each `%HH` decoded (RFC 3986, 2.1).
 std::string percent_decoded(std::string_view text) {
   std::string decoded;
   for (; !text.empty(); text.remove_prefix(1)) {
@@ -158,7 +158,8 @@ void add_size_callback(Callbacks& files) {
   }
 }
 
-/// Returns the size of the buffers in a .gltf file's text; a .glb's own buffer is part of the file.
+/// Returns the size of the buffers embedded in a .gltf file's text. (A .glb's own buffer is part of
+/// the file.)
 std::size_t decoded_bytes(const tinygltf::Model& model) {
   std::size_t total = 0;
   for (const tinygltf::Buffer& buffer : model.buffers) {
@@ -174,14 +175,13 @@ void refuse_gltf(std::string_view why) {
 }
 
 void refuse_index(int index, std::size_t size, std::string_view what, std::string_view user) {
-  refuse_gltf(
-      fmt::format("{} names the {} {}, but the file has {} of them", user, what, index, size));
+  refuse_gltf(fmt::format("{} refers to {} {}, but the file has only {}", user, what, index, size));
 }
 
 tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions) {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
   if (bytes.size() > kLargest)
-    throw InputError("it holds more than 4 GiB, which glTF cannot; split it");
+    throw InputError("it is larger than 4 GiB, which glTF does not allow; split it");
   Buffers buffers{bytes, &companions};
   tinygltf::FsCallbacks files = callbacks(buffers);
   add_size_callback(files);

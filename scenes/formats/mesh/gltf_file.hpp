@@ -21,7 +21,7 @@ tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions);
 [[noreturn]] void refuse_gltf(std::string_view why);
 
 /// Returns the list element that an index in the file refers to; `what` and `user` are for the
-/// message: "node", "scene 0". Throws InputError if there is none.
+/// message: "node", "scene 0". Throws InputError if there is no such element.
 template <typename T>
 const T& element_of(const std::vector<T>& list, int index, std::string_view what,
                     std::string_view user);

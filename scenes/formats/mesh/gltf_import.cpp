@@ -37,11 +37,12 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Incremented whenever this file or its callees read a mesh differently.
+/// The version of this importer; increment it whenever this file or its callees read a mesh
+/// differently.
 constexpr int kOwnVersion = 2;
 
-/// A short file may place a mesh many times. If there would be more triangles than this, or more
-/// vertices in primitives with triangles, the file is refused before any are made: as a scene, it
+/// The maximum number of triangles, and of vertices in primitives with triangles. A short file may
+/// place a mesh many times, so larger files are refused before any triangle is made: such a scene
 /// would need more than 20 GB.
 constexpr std::size_t kMaxTriangles = std::size_t{1} << 28U;
 
@@ -59,8 +60,8 @@ struct PlacedPrimitive {
 struct Notes {
   std::size_t points_and_lines = 0;
   std::size_t masked_triangles = 0;
-  std::size_t morphed_nodes = 0;     ///< by morph targets
-  std::size_t instancing_nodes = 0;  ///< by EXT_mesh_gpu_instancing
+  std::size_t morphed_nodes = 0;     ///< nodes with morph targets
+  std::size_t instancing_nodes = 0;  ///< nodes with EXT_mesh_gpu_instancing
 };
 
 bool has_triangles(int mode) {
@@ -68,7 +69,8 @@ bool has_triangles(int mode) {
          mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// Returns the number of primitives in a list of points, lines, a line strip or a loop.
+/// Returns the number of points or lines in a primitive: points, lines, a line strip or a line
+/// loop.
 std::size_t points_or_lines(int mode, std::size_t corners) {
   if (mode == TINYGLTF_MODE_LINE) return corners / 2;
   if (mode == TINYGLTF_MODE_LINE_STRIP) return corners > 0 ? corners - 1 : 0;
@@ -84,7 +86,7 @@ std::size_t triangle_count(int mode, std::size_t corners, std::string_view name)
   return corners / 3;
 }
 
-/// Returns the corners of one triangle of a list, strip or fan, with uniform winding.
+/// Returns the corners of one triangle of a triangle list, strip or fan, with consistent winding.
 std::array<std::size_t, 3> corners_of(int mode, std::size_t triangle) {
   if (mode == TINYGLTF_MODE_TRIANGLES) return {3 * triangle, 3 * triangle + 1, 3 * triangle + 2};
   if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {triangle + 1, triangle + 2, 0};
@@ -195,7 +197,7 @@ class GltfCollector {
   struct Instance {
     const PlacedNode* node = nullptr;
     std::optional<std::uint32_t>
-        matrix{};  ///< of the node or its skin's first joint; empty: it is static
+        matrix{};  ///< of the node or its skin's first joint; empty if it is static
     std::vector<PlacedPrimitive> primitives{};
   };
 

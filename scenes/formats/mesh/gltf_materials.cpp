@@ -14,7 +14,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-constexpr double kMeanTexture = 0.214;  // linear; displayed, half of white
+constexpr double kMeanTexture = 0.214;  // linear; encoded for display, it is half of white
 
 double within(double number, double least, double largest) {
   return number >= least ? std::min(number, largest) : least;  // least for NaN

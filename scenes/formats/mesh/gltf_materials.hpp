@@ -7,14 +7,14 @@
 
 namespace beambench::scenes::mesh {
 
-/// A material as a scene surface, and whether the conversion ignores holes.
+/// A material as a surface of a scene, and whether the conversion ignores holes.
 struct GltfSurface {
   Surface surface;
   bool has_mask = false;  ///< its alpha, which is ignored, cuts out or fades parts
 };
 
-/// Returns the surface of a material; unpainted clay for index -1. Throws InputError when there is
-/// no such material.
+/// Returns the surface of a material; unpainted clay for index -1. Throws InputError if there is no
+/// such material.
 /// - The color is the base color factor, encoded for display like all scene colors. Textures are
 ///   not read: a texture counts as a mean gray, which the factor tints.
 /// - Highlights and reflections: (1 - roughness) (0.2 + 0.6 metalness), with the exponent

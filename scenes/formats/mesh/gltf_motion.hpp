@@ -23,8 +23,7 @@ inline constexpr double kFrameRate = 24.0;
 /// The maximum number of frames; a longer animation has this many, evenly spaced.
 inline constexpr std::uint32_t kMaxFrames = 1000;
 
-/// The first animation of a file, sampled at times from 0 on, and the matrices that move its
-/// meshes.
+/// The first animation of a file, sampled at times from 0, and the matrices that move the meshes.
 class GltfMotion {
  public:
   /// Moves the model's nodes to frame 0. Appends warnings about omitted parts. Throws like
@@ -34,7 +33,7 @@ class GltfMotion {
   std::uint32_t frames() const { return frames_; }
   /// Returns the nodes in frame 0.
   std::span<const PlacedNode> nodes() const { return nodes_; }
-  /// Returns whether the node or one above it moves.
+  /// Returns whether the node or one of its ancestors moves.
   bool moves(const PlacedNode& node) const;
 
   /// Returns the index of the matrix that places the node in each frame.
@@ -46,8 +45,8 @@ class GltfMotion {
   /// Returns the matrices in frame 0.
   std::span<const glm::dmat4> matrices() const { return matrices_; }
 
-  /// Returns the matrices of all frames, leaving the nodes in the last. The constructor has omitted
-  /// frames that would need too much memory.
+  /// Returns the matrices of all frames, leaving the nodes in the last frame. The constructor has
+  /// omitted frames that would need too much memory.
   std::vector<glm::dmat4> all_matrices();
 
  private:
@@ -75,7 +74,8 @@ class GltfMotion {
 /// The joints that move the vertices of a primitive, with their weights.
 class GltfWeights {
  public:
-  /// Throws InputError if the primitive has no joints and weights, or not as many as vertices.
+  /// Throws InputError if the primitive has no joints and weights, or not as many of them as
+  /// vertices.
   GltfWeights(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
               std::size_t vertices);
 

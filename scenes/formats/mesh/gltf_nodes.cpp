@@ -44,7 +44,7 @@ glm::dmat4 local_matrix(const tinygltf::Node& node, int number) {
   return matrix;
 }
 
-/// Returns the nodes at the root of a scene; in a file without scenes, those without a parent.
+/// Returns the root nodes of a scene; in a file without scenes, the nodes without a parent.
 std::vector<int> root_nodes(const tinygltf::Model& model) {
   std::vector<int> roots;
   if (!model.scenes.empty()) {

@@ -16,9 +16,10 @@ struct PlacedNode {
   int parent;  ///< its number; -1 for a root
 };
 
-/// Returns all nodes of the file's default scene (its first if it names none, all nodes if it has
-/// no scenes), parents before children, in the order of the file. They must not outlive the model.
-/// Throws InputError if a node does not exist or is reached twice: a cycle, or two parents.
+/// Returns all nodes of the file's default scene (the first scene if no default is stated, all
+/// nodes if there are no scenes), parents before children, in the order of the file. They must not
+/// outlive the model. Throws InputError if a node does not exist or is reached twice: a cycle, or
+/// two parents.
 std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model);
 
 }  // namespace beambench::scenes::mesh

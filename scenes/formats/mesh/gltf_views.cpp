@@ -27,7 +27,7 @@ double radius_of(const Bounds& bounds) {
   return 0.5 * glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));
 }
 
-/// Returns the text reduced to the characters that a camera's name may have (see
+/// Returns the name reduced to the characters that a camera's name may have (see
 /// `SceneBuilder::add_camera`).
 std::string plain_name(std::string name) {
   std::replace_if(
@@ -51,7 +51,7 @@ std::string distinct_name(const std::string& name, const std::vector<Camera>& be
   return distinct;
 }
 
-/// Returns why a scene cannot hold the camera; empty if it can.
+/// Returns why a scene cannot contain the camera; empty if it can.
 std::string fault_of(const Camera& camera) {
   try {
     SceneBuilder("").add_camera(camera);
@@ -171,10 +171,10 @@ std::vector<Light> gltf_lights(const tinygltf::Model& model, std::span<const Pla
     squares += brightest(light.color) * brightest(light.color);
     placed.push_back(light);
   }
-  if (spots > 0) warnings.push_back(fmt::format("{} spot lights shine to all sides", spots));
+  if (spots > 0) warnings.push_back(fmt::format("{} spot lights shine in all directions", spots));
   if (invalid > 0) {
     warnings.push_back(
-        fmt::format("{} lights were left out: they give no light, or lie beyond 1e9", invalid));
+        fmt::format("{} lights were left out: they emit no light, or are beyond 1e9", invalid));
   }
   std::vector<Light> lights;
   for (const PlacedLight& light : placed) {

@@ -17,7 +17,7 @@ namespace beambench::scenes::mesh {
 /// Returns the perspective cameras, looking at the depth of the center of `bounds`. Each has the
 /// name of its node, or else its own, or else `camera`, without control characters and '#',
 /// followed by a number if an earlier camera or a fitted one (`fitted_camera_names`) has that name.
-/// Cameras that are orthographic or that a scene cannot hold are left out with a warning.
+/// Cameras that are orthographic, or invalid in a scene, are left out with a warning.
 std::vector<Camera> gltf_cameras(const tinygltf::Model& model, std::span<const PlacedNode> nodes,
                                  const Bounds& bounds, std::vector<std::string>& warnings);
 

@@ -54,7 +54,7 @@ class Pipe {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Reading throws TooLate if nothing arrives until the deadline.
+  /// Reading throws TooLate if nothing arrives before the deadline.
   Pipe(const std::filesystem::path& path, Clock::time_point deadline) : deadline_(deadline) {
     if (::pipe2(ends_.data(), O_CLOEXEC) != 0) refuse_by_errno(path, "making a pipe");
   }
@@ -129,15 +129,15 @@ class Pipe {
   Clock::time_point deadline_;
 };
 
-/// Limits this process. Memory that is already mapped, inherited from the parent, does not count.
+/// Limits this process. Memory that is already mapped (inherited from the parent) does not count.
 void keep_within(const ImportLimits& limits) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const auto seconds = static_cast<rlim_t>(limits.processor.count());
   const rlimit time{seconds, seconds + 1};
   ::setrlimit(RLIMIT_CPU, &time);
-  // Not the address space, because sanitizers reserve terabytes of it. Such reservations also count
-  // here, but exist before the limit is set.
+  // Limits the data, not the address space, because sanitizers reserve terabytes of the latter.
+  // Such reservations also count as data, but exist before the limit is set.
   if (const auto used = mapped_data_bytes()) {
     const rlimit memory{*used + limits.memory, RLIM_INFINITY};
     ::setrlimit(RLIMIT_DATA, &memory);
@@ -152,8 +152,8 @@ void keep_within(const ImportLimits& limits) {
   if (::getppid() != parent) ::_exit(1);  // the parent has already exited
   keep_within(limits);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  // A library's last messages are for its developers, and the parent writes the contents of
-  // stdout's buffer.
+  // A library's last messages are only of use to its developers; the contents of stdout's buffer
+  // are written by the parent.
   ::dup2(nowhere, STDERR_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
   try {

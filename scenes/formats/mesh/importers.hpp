@@ -14,8 +14,8 @@ namespace beambench::scenes::mesh {
 
 /// Reads files of some formats.
 struct Importer {
-  /// `library-version`, or `format-version` for our own readers; it changes whenever a file might
-  /// be read differently. Empty in a build without the library.
+  /// `library-version`, or `format-version` for beambench's own readers; it changes whenever a file
+  /// might be read differently. Empty in a build without the library.
   std::string name;
   /// The implementation of `import_mesh`.
   ImportedMesh (*import)(std::string_view bytes, const std::string& ending,
@@ -24,9 +24,9 @@ struct Importer {
 
 /// Reads glTF 2.0 (`.gltf`, `.glb`), with tinygltf.
 Importer gltf_importer();
-/// Reads OBJ with its material libraries, with our own reader.
+/// Reads OBJ with its material libraries, with beambench's own reader.
 Importer obj_importer();
-/// Read PLY, OFF and STL, with our own readers, which are in every build.
+/// Read PLY, OFF and STL, with beambench's own readers, which are in every build.
 Importer ply_importer();
 Importer off_importer();
 Importer stl_importer();
@@ -38,7 +38,8 @@ Importer assimp_importer();
 [[noreturn]] void refuse_missing_library(const std::filesystem::path& path,
                                          std::string_view library, std::string_view package);
 
-/// Runs one of our own readers on the bytes of a file. Prefixes its errors with the file's name.
+/// Runs one of beambench's own readers on the bytes of a file. Prefixes its errors with the file's
+/// name.
 ImportedMesh with_file_name(const std::filesystem::path& path, std::string_view bytes,
                             ImportedMesh (*read)(std::string_view));
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 16U;  // list elements read at a time
 
-/// Writes numbers, texts and lists to a sink.
+/// Writes numbers, strings and lists to a sink.
 class Writer {
  public:
   explicit Writer(const ByteSink& sink) : sink_(&sink) {}
@@ -46,7 +46,7 @@ class Writer {
   const ByteSink* sink_;
 };
 
-/// Reads them from a source; throws std::out_of_range at its end.
+/// Reads numbers, strings and lists from a source; throws std::out_of_range at its end.
 class Reader {
  public:
   Reader(const ByteSource& source, std::uint64_t at_most) : source_(&source), left_(at_most) {}
@@ -63,7 +63,7 @@ class Reader {
     require(count, sizeof(T));
     std::vector<T> list;
     list.reserve(count);
-    while (list.size() < count) {  // in parts: only memory for existing data is touched
+    while (list.size() < count) {  // in parts, so that memory is used only for existing data
       const std::size_t before = list.size();
       list.resize(before + std::min<std::size_t>(count - before, kBlock));
       take_bytes(reinterpret_cast<char*>(list.data() + before), list.size() - before, sizeof(T));
@@ -151,7 +151,7 @@ ImportedMesh decode(const ByteSource& source, std::uint64_t at_most) {
   imported.motion.influences = reader.take_list<Influence>();
   imported.motion.matrices = reader.take_list<glm::dmat4>();
   if (!is_consistent(imported.motion, imported.mesh.vertices.size())) {
-    throw std::out_of_range("the motion is not one of the mesh");
+    throw std::out_of_range("the motion does not match the mesh");
   }
   return imported;
 }

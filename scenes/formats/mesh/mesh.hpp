@@ -1,5 +1,5 @@
 #pragma once
-// The contents of a mesh file that matter to rays.
+// The contents of a mesh file that affect rays.
 
 #include <array>
 #include <cstddef>
@@ -40,7 +40,7 @@ struct MeshCompanion {
   std::uint64_t hash = 0;
 };
 
-/// A mesh that a scene can hold, with the cameras and lights of its file, and warnings about
+/// A mesh that is valid in a scene, with the cameras and lights of its file, and warnings about
 /// omitted parts (without the file's name).
 struct ImportedMesh {
   TriangleMesh mesh;
@@ -66,7 +66,7 @@ std::string encode(const ImportedMesh& imported);
 
 /// Decodes a mesh. Throws std::out_of_range if the bytes end early, a list claims more than
 /// `at_most` bytes, or the motion does not match the mesh, and std::bad_alloc if memory runs out.
-/// Bytes not made by `encode` may yield any mesh; a scene builder refuses invalid ones.
+/// Bytes not made by `encode` may yield any mesh; a scene builder refuses invalid meshes.
 ImportedMesh decode(const ByteSource& source, std::uint64_t at_most);
 /// Decodes from a string.
 ImportedMesh decode(std::string_view bytes);

@@ -44,7 +44,7 @@ bool is_unchanged(const MeshCompanion& companion, const fs::path& mesh_folder) {
   std::uint64_t hash = 0;
   try {
     hash = content_hash(read_bytes(mesh_folder / companion.path));
-  } catch (const InputError&) {  // it is missing, as it may have been then
+  } catch (const InputError&) {  // it is missing, perhaps as when the mesh was read
   }
   return hash == companion.hash;
 }
@@ -80,7 +80,7 @@ void read_fully(InputStream& file, char* into, std::size_t count) {
   if (file.read({into, count}) < count) throw std::out_of_range("the file ends too early");
 }
 
-/// The file was written by an earlier version.
+/// Thrown for a file that was written by an earlier version.
 struct OtherLayout {};
 
 /// Reads the mesh in a file after verifying that the file is unchanged.
@@ -108,7 +108,7 @@ ImportedMesh read_mesh(const fs::path& path) {
   return mesh;
 }
 
-/// Returns what precedes a mesh in its file.
+/// Returns the header that precedes a mesh in its file.
 Header header_of(const ImportedMesh& mesh) {
   Header header{};
   std::copy(kMagic.begin(), kMagic.end(), header.magic);

@@ -1,5 +1,5 @@
 #pragma once
-// The cache folder, with earlier imported meshes in a form that is fast to read.
+// The cache folder, which contains imported meshes in a form that is fast to read.
 
 #include <cstdint>
 #include <filesystem>

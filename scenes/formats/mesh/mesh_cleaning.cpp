@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 
-/// Turns -0 into 0, so that equal positions have equal bits; throws if no scene can hold the
-/// position.
+/// Turns -0 into 0, so that equal positions have equal bits; throws if the position is invalid in a
+/// scene.
 glm::vec3 checked(const glm::vec3& position, std::size_t triangle) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(position[axis]) <= static_cast<float>(kLargestNumber))) {  // catches NaN too

@@ -1,5 +1,5 @@
 #pragma once
-// Converts the triangles of a file to triangles that a scene can hold.
+// Converts the triangles of a file to triangles that are valid in a scene.
 
 #include <array>
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace beambench::scenes::mesh {
 
-/// Vertices of a file that its triangles share by index. Remembers which vertex of the collected
-/// mesh each became, so that positions are looked up once per vertex, not once per corner.
+/// Vertices of a file that its triangles share by index. Remembers the corresponding vertices of
+/// the collected mesh, so that positions are looked up once per vertex, not once per corner.
 class SharedVertices {
  public:
   /// If `merges` is false, the vertices are not merged with others at the same position, because
@@ -34,7 +34,7 @@ class SharedVertices {
   bool merges_;
 };
 
-/// Collects triangles from a file: vertices at the same position are merged, unused ones are
+/// Collects triangles from a file: vertices at the same position are merged, unused vertices are
 /// dropped, and triangles without area are left out and counted.
 class MeshCollector {
  public:
@@ -43,7 +43,7 @@ class MeshCollector {
   /// Sets the surface of triangles added from now on.
   void set_surface(const Surface& surface);
   /// Throws InputError with the triangle's number if a coordinate is not a number from -1e9 to 1e9,
-  /// or if there are too many for 32-bit indices.
+  /// or if there are too many triangles for 32-bit indices.
   void add(const std::array<glm::vec3, 3>& corners);
   /// Adds a triangle whose corners are indices, each in range.
   void add(SharedVertices& vertices, const std::array<std::uint32_t, 3>& corners);

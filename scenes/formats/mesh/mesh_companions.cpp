@@ -36,7 +36,7 @@ std::optional<fs::path> place_of(const fs::path& name, const fs::path& folder) {
 
 [[noreturn]] void refuse_size() {
   throw InputError(
-      "it and the files that it names hold more than 4 GiB; split it, or reduce its triangles");
+      "it and the files that it refers to hold more than 4 GiB; split it, or reduce its triangles");
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ std::string_view MeshCompanions::read(const fs::path& name) {
   const auto place = place_of(name, folder_);
   if (!place) {
     throw InputError(fmt::format(
-        "it names the file '{}', which is not in its folder, and nothing else is read; put the "
+        "it refers to the file '{}', which is not in its folder and is not read; put the "
         "file into the folder, and name it without '..' and links",
         name.string()));
   }

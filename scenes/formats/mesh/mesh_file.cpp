@@ -31,7 +31,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// Returns the text after the last dot, in lower case; a final `.gz` does not count.
+/// Returns the ending after the last dot, in lower case; a final `.gz` does not count.
 std::string last_ending(std::string_view file_name) {
   if (is_gzipped(file_name)) file_name.remove_suffix(kGzip.size());
   const std::size_t dot = file_name.find_last_of("./");
@@ -52,7 +52,7 @@ bool contains(const List& list, std::string_view word) {
   refuse(path, "it holds more than 4 GiB; split it, or reduce its triangles");
 }
 
-/// zlib's state of reading one gzip file.
+/// The state of zlib while it reads one gzip file.
 class Inflation {
  public:
   explicit Inflation(std::string_view packed) : packed_(packed) {
@@ -162,7 +162,7 @@ std::string read_bytes(const std::filesystem::path& path) {
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
-    refuse(path, "it is not a regular file; a mesh is read from a file of its own");
+    refuse(path, "it is not a regular file; meshes can be read only from regular files");
   }
   if (fs::is_regular_file(status) && fs::file_size(path, unknown) > kLargestMeshFile && !unknown) {
     refuse_size(path);

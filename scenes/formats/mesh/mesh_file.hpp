@@ -19,7 +19,7 @@ std::string mesh_ending(std::string_view file_name);
 
 bool is_gzipped(std::string_view file_name);
 
-/// Returns whether a path (a text with a slash) has the ending of an unsupported model format
+/// Returns whether a path (a string with a slash) has the ending of an unsupported model format
 /// (`.max`, `.usd`, `.step`...).
 bool is_foreign_model(std::string_view path);
 
@@ -29,8 +29,8 @@ bool is_foreign_model(std::string_view path);
 /// The size limit of an unpacked mesh file: 4 GiB.
 inline constexpr std::uint64_t kLargestMeshFile = kLargestFile;
 
-/// Returns the folder of a mesh file's companions (material libraries, glTF buffers): that of the
-/// file itself, not that of a link to it.
+/// Returns the folder of a mesh file's companions (material libraries, glTF buffers): the folder of
+/// the file itself, not of a link to it.
 std::filesystem::path companion_folder(const std::filesystem::path& path);
 
 /// Reads a whole file. Throws InputError if it cannot be read, is empty or is too large.
@@ -51,7 +51,7 @@ struct Orientation {
 /// y is up and the front faces z.
 Orientation usual_orientation(std::string_view ending);
 
-/// Parses `x`, `-x`, `y`, `-y`, `z` or `-z`; nothing for any other text.
+/// Parses `x`, `-x`, `y`, `-y`, `z` or `-z`; returns nothing for any other string.
 std::optional<glm::dvec3> parse_axis(std::string_view text);
 
 }  // namespace beambench::scenes::mesh

@@ -19,8 +19,8 @@ std::string importer_of(std::string_view ending);
 /// Reads a mesh from the bytes of a file in the format denoted by `ending`. Its polygons become
 /// triangles, in world space, right-handed; points, lines and triangles without area are left out
 /// with a warning. `path` is used in messages and to find companions, which are read only from its
-/// folder. Throws InputError if the file is malformed, has no triangles or has numbers that no
-/// scene can hold, and always in a build without its importer.
+/// folder. Throws InputError if the file is malformed, has no triangles or has numbers that are
+/// invalid in a scene. In a build without the importer, always throws InputError.
 ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
                          const std::filesystem::path& path);
 
@@ -37,9 +37,9 @@ struct ImportLimits {
 /// than is available (`available_memory`).
 ImportLimits import_limits(std::string_view bytes, std::string_view ending);
 
-/// Runs import_mesh in a separate process: for some malformed or truncated files a library aborts,
-/// never returns, or takes all memory. Also throws InputError in these cases and if a limit is
-/// exceeded.
+/// Runs import_mesh in a separate process: with some malformed or truncated files, a library
+/// aborts, never returns, or takes all memory. Also throws InputError in these cases and if a limit
+/// is exceeded.
 ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
                             const std::filesystem::path& path, const ImportLimits& limits);
 

@@ -1,5 +1,5 @@
 #pragma once
-// How the vertices of a mesh move from frame to frame.
+// The motion of a mesh's vertices from frame to frame.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,24 +17,24 @@ struct Influence {
   double weight;
 };
 
-/// A moving vertex: the weighted sum of its rest position as moved by its matrices.
+/// A moving vertex: the weighted sum of its rest position transformed by its matrices.
 struct MovingVertex {
   glm::dvec3 rest{0.0};
-  std::uint32_t first = 0;  ///< of its influences
+  std::uint32_t first = 0;  ///< index of its first influence
   std::uint32_t count = 0;  ///< 0: the vertex is static
 };
 
 /// The frames of a mesh. Frame 0 is the mesh itself.
 struct MeshMotion {
-  std::uint32_t frames = 1;            ///< 1: it does not move, and all lists are empty
-  std::vector<MovingVertex> vertices;  ///< one for each of the mesh
+  std::uint32_t frames = 1;            ///< 1: the mesh does not move, and all lists are empty
+  std::vector<MovingVertex> vertices;  ///< one for each vertex of the mesh
   std::vector<Influence> influences;
   std::vector<glm::dmat4> matrices;  ///< frame by frame, the same number for each
 
   bool moves() const { return frames > 1; }
 };
 
-/// Returns the weighted sum, rounded once, without negative zeros.
+/// Returns the weighted sum of a vertex, rounded once, without negative zeros.
 glm::vec3 moved(const glm::dvec3& rest, std::span<const Influence> influences,
                 std::span<const glm::dmat4> matrices);
 

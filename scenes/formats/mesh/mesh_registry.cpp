@@ -32,9 +32,8 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& na
 [[noreturn]] void refuse_name(std::string_view name, const std::vector<std::string>& names) {
   const auto cache = cache_folder();
   const std::string there =
-      names.empty()
-          ? "none is"
-          : fmt::format("{}registered are {}", suggestion(name, names), fmt::join(names, ", "));
+      names.empty() ? "none is"
+                    : fmt::format("{}it has {}", suggestion(name, names), fmt::join(names, ", "));
   throw InputError(fmt::format(
       "no mesh '{}' is registered in {}: {}; scripts/meshes installs cat, bunny, dragon and "
       "others, and any mesh file can be given by its path",
@@ -56,11 +55,11 @@ Json read_json(const fs::path& entry) {
   }
 }
 
-/// Returns a text of an entry, or `otherwise` if the entry does not have it.
+/// Returns a string member of an entry, or `otherwise` if the member is missing.
 std::string text_of(const Json& json, const char* key, const std::string& otherwise,
                     const fs::path& entry) {
   if (!json.contains(key)) return otherwise;
-  if (!json[key].is_string()) refuse_entry(entry, fmt::format("'{}' must be a text", key));
+  if (!json[key].is_string()) refuse_entry(entry, fmt::format("'{}' must be a string", key));
   return json[key].get<std::string>();
 }
 
@@ -106,7 +105,7 @@ Camera camera_of(const Json& json, const glm::dvec3& up, const fs::path& entry) 
   return camera;
 }
 
-/// Returns the elements of a list; none if it is missing.
+/// Returns a list of an entry; an empty list if it is missing.
 Json list_of(const Json& json, const char* key, const fs::path& entry) {
   Json list = json.value(key, Json::array());
   if (!list.is_array()) refuse_entry(entry, fmt::format("'{}' must be a list", key));
@@ -115,7 +114,7 @@ Json list_of(const Json& json, const char* key, const fs::path& entry) {
 
 GivenView read_view(const Json& json, const Orientation& orientation, const fs::path& entry) {
   GivenView view;
-  SceneBuilder checked("");  // refuses views that no scene can have
+  SceneBuilder checked("");  // refuses views that are invalid in a scene
   try {
     for (const Json& given : list_of(json, "cameras", entry)) {
       const Camera camera = camera_of(given, orientation.up, entry);

@@ -31,8 +31,8 @@ struct RegisteredMesh {
 /// Returns the sorted names of all registered meshes.
 std::vector<std::string> registered_mesh_names();
 
-/// Returns the registered mesh. Throws InputError for an unknown name, listing the known ones and
-/// how to get more, and for a malformed entry, naming its file.
+/// Returns the registered mesh. Throws InputError for an unknown name, stating the known names and
+/// how to get more meshes, and for a malformed entry, naming its file.
 RegisteredMesh find_registered_mesh(std::string_view name);
 
 }  // namespace beambench::scenes::mesh

@@ -41,8 +41,8 @@ bool has_camera(const GivenView& view, const std::string& name) {
                      [&](const Camera& camera) { return camera.name == name; });
 }
 
-/// Returns the first view plus the second's cameras with other names, and its lights if the first
-/// has none.
+/// Returns the first view, with those cameras of the second that have other names, and with the
+/// second's lights if the first has none.
 GivenView combined(GivenView first, const GivenView& second) {
   for (const Camera& camera : second.cameras) {
     if (!has_camera(first, camera.name)) first.cameras.push_back(camera);
@@ -74,7 +74,7 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
   ImportedMesh imported = import();
   if (!cache_mesh(folder, key, imported)) {
     notes.push_back(
-        fmt::format("the cache {} cannot be written, so reading it will be as slow the next "
+        fmt::format("the cache {} cannot be written, so reading the mesh will be as slow next "
                     "time; set BEAMBENCH_CACHE to a writable folder",
                     folder.string()));
   }

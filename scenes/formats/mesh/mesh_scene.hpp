@@ -17,9 +17,9 @@
 
 namespace beambench::scenes::mesh {
 
-/// Adds the given cameras, then fitted cameras that show these points (`three-quarter`, `front`,
-/// `side`, `top`) unless their names are taken; the given lights, or else two on the side of the
-/// `three-quarter` camera; and a background.
+/// Adds cameras, lights and a background. The cameras are those given, then fitted cameras that
+/// show these points (`three-quarter`, `front`, `side`, `top`) unless their names are taken. The
+/// lights are those given, or else two on the side of the `three-quarter` camera.
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
               const Orientation& orientation, const GivenView& given = {});
 

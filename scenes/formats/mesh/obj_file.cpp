@@ -66,16 +66,16 @@ std::uint32_t corner_of(std::string_view word, const ObjStatement& statement,
   using Limits = std::numeric_limits<std::int32_t>;
   if (!index || *index == 0 || *index < Limits::min() || *index > Limits::max() ||
       !are_attributes(word.substr(first.size()))) {
-    refuse_line(statement.line,
-                fmt::format("a face has the corner '{}', but must have numbers of vertices, "
-                            "which count from 1",
-                            excerpt(word)));
+    refuse_line(statement.line, fmt::format("a face has the corner '{}'; expected vertex numbers, "
+                                            "which count from 1",
+                                            excerpt(word)));
   }
   if (*index > 0) return static_cast<std::uint32_t>(*index) - 1;
   const std::int64_t place = static_cast<std::int64_t>(vertices_before) + *index;
   if (place < 0) {
-    refuse_line(statement.line, fmt::format("a face has the vertex {}, but {} vertices precede it",
-                                            *index, vertices_before));
+    refuse_line(statement.line,
+                fmt::format("a face refers to vertex {}, but only {} vertices precede it", *index,
+                            vertices_before));
   }
   return static_cast<std::uint32_t>(place);
 }
@@ -149,7 +149,7 @@ ObjFile read_obj(std::string_view text) {
   if (wrong != file.corners.end()) {
     const auto number = static_cast<std::size_t>(wrong - file.corners.begin());
     refuse_line(line_of_corner(text, number),
-                fmt::format("a face has the vertex {}, but there are {} vertices",
+                fmt::format("a face refers to vertex {}, but there are only {} vertices",
                             std::uint64_t{*wrong} + 1, file.vertices.size()));
   }
   return file;

@@ -16,7 +16,7 @@ namespace beambench::scenes::mesh {
 
 struct ObjFile {
   std::vector<glm::vec3> vertices;
-  std::vector<std::uint32_t> corners;     ///< of all faces: indices into vertices
+  std::vector<std::uint32_t> corners;     ///< corners of all faces: indices into vertices
   std::vector<std::uint32_t> face_sizes;  ///< the number of corners of each face
   /// The materials of `usemtl`, each with the first face that it applies to.
   std::vector<std::pair<std::size_t, std::string>> materials;
@@ -26,9 +26,10 @@ struct ObjFile {
   UnknownLines unknown;
 };
 
-/// Reads the statements of a text. Throws InputError with the line, but without the file's name, if
-/// a vertex does not have 3 to 7 numbers (a weight or a color may follow the coordinates), if a
-/// coordinate is not finite, or if a face refers to a vertex that is not in the file.
+/// Reads the statements of an OBJ text. Throws InputError with the line, but without the file's
+/// name, if the number of a vertex's numbers is not 3 to 7 (a weight or a color may follow the
+/// coordinates), if a coordinate is not finite, or if a face refers to a vertex that is not in the
+/// file.
 ObjFile read_obj(std::string_view text);
 
 }  // namespace beambench::scenes::mesh

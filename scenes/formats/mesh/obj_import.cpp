@@ -24,7 +24,7 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Incremented whenever OBJ files are read differently.
+/// The version of this importer; increment it whenever OBJ files are read differently.
 constexpr int kOwnVersion = 3;
 
 /// Returns the surface of a material. `usemtl` may be followed by a comment, but a material's name

@@ -17,8 +17,8 @@ std::string_view take_word(std::string_view& line);
 /// Returns the text without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// Returns a name without the comment after it. Names may contain a '#', so only one after a blank
-/// begins a comment.
+/// Returns a name without the comment after it. Names may contain a '#', so only a '#' after a
+/// blank begins a comment.
 std::string_view without_comment(std::string_view name);
 
 /// Counts the lines of a file that were not understood.
@@ -27,7 +27,8 @@ class UnknownLines {
   /// Records a line's number, from 1, and its first word.
   void add(std::size_t line, std::string_view word);
   bool empty() const { return count_ == 0; }
-  /// Returns a message with their number, and the line numbers and first words of the first few.
+  /// Returns a message with the number of lines, and the line numbers and first words of the first
+  /// few.
   std::string message() const;
 
  private:

@@ -52,7 +52,7 @@ std::optional<std::vector<float>> numbers_of(std::string_view rest) {
   return numbers;
 }
 
-/// Reads `Kd r g b`, or `Kd r` for a gray. Returns false when it is not understood.
+/// Reads `Kd r g b`, or `Kd r` for a gray. Returns false if the line is not understood.
 bool read_color(std::string_view rest, glm::vec3& color) {
   const auto numbers = numbers_of(rest);
   if (!numbers || numbers->size() == 2) return false;
@@ -61,7 +61,7 @@ bool read_color(std::string_view rest, glm::vec3& color) {
   return true;
 }
 
-/// Reads one number, optionally after `-halo`. Returns false when it is not understood.
+/// Reads one number, optionally after `-halo`. Returns false if the line is not understood.
 bool read_factor(std::string_view rest, std::optional<float>& factor) {
   std::string_view after = rest;
   const auto numbers = numbers_of(take_word(after) == "-halo" ? after : rest);
@@ -70,7 +70,7 @@ bool read_factor(std::string_view rest, std::optional<float>& factor) {
   return true;
 }
 
-/// Reads a line of the material. Returns false when it is not understood.
+/// Reads a line of the material. Returns false if the line is not understood.
 bool read_property(std::string_view word, std::string_view rest, Material& material) {
   if (word == "Kd") return read_color(rest, material.color);
   if (word == "d") return read_factor(rest, material.dissolve);
@@ -79,7 +79,7 @@ bool read_property(std::string_view word, std::string_view rest, Material& mater
   return true;
 }
 
-/// Adds the surface, unless an earlier material has the name.
+/// Adds the material's surface, unless an earlier material has the same name.
 void add_material(const Material& material, std::map<std::string, Surface>& surfaces) {
   const Surface surface = surface_of(material);
   surfaces.emplace(material.name, surface);
@@ -88,7 +88,7 @@ void add_material(const Material& material, std::map<std::string, Surface>& surf
 
 UnknownLines add_library(std::string_view text, std::map<std::string, Surface>& surfaces) {
   UnknownLines unknown;
-  std::optional<Material> material;  // lines before the first have no material
+  std::optional<Material> material;  // lines before the first `newmtl` have no material
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = take_line(text);
     const std::string_view word = take_word(line);

@@ -25,7 +25,7 @@ enum class ObjKind {
 
 struct ObjStatement {
   ObjKind kind = ObjKind::kNothing;
-  std::size_t line = 0;   ///< where the statement begins, from 1
+  std::size_t line = 0;   ///< line in which the statement begins, from 1
   std::string_view word;  ///< the first word
   std::string_view rest;  ///< the text after the word, valid until the next call of `next`
 };

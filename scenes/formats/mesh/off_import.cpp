@@ -5,14 +5,14 @@
 // - The keyword `[ST][C][N][4][n]OFF`, which may be missing, and the numbers of vertices, faces and
 //   edges (the last is not checked), on one or more lines.
 // - Vertices: x y z, then three numbers of a normal (N), a color (C) and two texture coordinates
-//   (ST), depending on the keyword. A color has four numbers. In files of other programs it has
-//   three, and the letters and numbers are in a different order.
+//   (ST), depending on the keyword. A color has four numbers. In files of other programs, a color
+// has three numbers, and the letters and numbers are in a different order.
 // - Faces: the number of corners, the corners, counted from 0, and a color of 0 to 4 numbers.
 // - `#` begins a comment.
 //
 // Colors, normals and texture coordinates are skipped. Each vertex and each face must be on a
 // separate line, as programs write them; Geomview reads the numbers of vertices across line ends,
-// where a missing number would shift all later ones. Four-dimensional (4), n-dimensional (n) and
+// so a missing number would shift all later ones. Four-dimensional (4), n-dimensional (n) and
 // binary files are refused.
 
 #include <algorithm>
@@ -126,7 +126,7 @@ void next_row(TextLines& lines, std::string_view what, std::uint64_t row, std::u
                   count, what, row));
 }
 
-/// Takes the rest of the line. Returns how many numbers it has.
+/// Takes the rest of the line. Returns the number of numbers in it.
 std::size_t skip_numbers(TextLines& lines, std::string_view what, std::uint64_t row) {
   std::size_t count = 0;
   for (auto word = lines.word(); !word.empty(); word = lines.word()) {
@@ -152,8 +152,8 @@ glm::vec3 take_off_vertex(TextLines& lines, const OffHeader& header, std::uint64
   const std::size_t found = skip_numbers(lines, "vertex", row);
   if (found != others && !(header.has_colors && found + 1 == others)) {
     lines.refuse(
-        fmt::format("vertex {} has {} more than its three coordinates, but the keyword "
-                    "of the file means {}",
+        fmt::format("vertex {} has {} after its three coordinates, but the file's "
+                    "keyword requires {}",
                     row, counted(found, "number", "numbers"), others));
   }
   return place;
@@ -174,8 +174,9 @@ void take_off_face(TextLines& lines, const OffHeader& header, std::uint64_t row,
     }
     const auto corner = integer_of(word);
     if (!corner || *corner < 0 || static_cast<std::uint64_t>(*corner) >= header.vertices) {
-      lines.refuse(fmt::format("face {} has the vertex '{}', but there are only {}, counted from 0",
-                               row, excerpt(word), header.vertices));
+      lines.refuse(
+          fmt::format("face {} refers to vertex '{}', but there are only {}, counted from 0", row,
+                      excerpt(word), header.vertices));
     }
     faces.corners.push_back(static_cast<std::uint32_t>(*corner));
   }
@@ -192,8 +193,8 @@ ImportedMesh read_off(std::string_view bytes) {
   const OffHeader header = take_off_header(lines);
   if (header.faces == 0) {
     throw InputError(
-        fmt::format("its header declares {} but no faces, and rays hit nothing of a point cloud; "
-                    "make a surface of it, or export the mesh with its faces",
+        fmt::format("its header declares {} but no faces, and rays cannot hit a point cloud; "
+                    "reconstruct its surface, or export the mesh with its faces",
                     counted(header.vertices, "vertex", "vertices")));
   }
   IndexedFaces faces;
@@ -215,7 +216,7 @@ ImportedMesh read_off(std::string_view bytes) {
   return mesh_of(std::move(faces));
 }
 
-/// Incremented whenever this format is read differently.
+/// The version of this importer; increment it whenever the format is read differently.
 constexpr int kOffVersion = 1;
 
 }  // namespace

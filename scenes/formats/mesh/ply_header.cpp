@@ -110,7 +110,7 @@ PlyProperty take_property(TextLines& lines) {
 void require_properties(const PlyHeader& header, const TextLines& lines) {
   for (const PlyElement& element : header.elements) {
     if (element.count == 0 || !element.properties.empty()) continue;
-    lines.refuse(fmt::format("the header declares {} of the element '{}', but no property of it",
+    lines.refuse(fmt::format("the header declares {} of the element '{}', but no properties",
                              element.count, excerpt(element.name)));
   }
 }

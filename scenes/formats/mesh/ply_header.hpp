@@ -8,7 +8,7 @@
 //   `format binary_little_endian 1.0` and `format binary_big_endian 1.0`.
 // - `element NAME COUNT` declares rows; `property TYPE NAME` declares a number in each row of the
 //   preceding element; `property list TYPE TYPE NAME` declares a list: its length, of the first
-//   type, followed by that many numbers of the second.
+// type, followed by that many numbers of the second type.
 // - Lines that begin with `comment` or `obj_info` are ignored. Words are separated by any blanks.
 // - The rows follow the header, element by element in the order of the header: one per line, or in
 //   binary without separators.
@@ -29,7 +29,7 @@ std::size_t size_of(PlyType type);
 
 struct PlyProperty {
   std::string_view name;
-  PlyType type = PlyType::kFloat32;    ///< of the number, or of each in the list
+  PlyType type = PlyType::kFloat32;    ///< of the number, or of each number in the list
   std::optional<PlyType> length_type;  ///< of a list
 };
 

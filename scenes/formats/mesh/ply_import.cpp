@@ -47,7 +47,7 @@ bool has_faces(const PlyElement& element) {
       fmt::format("its header declares the element '{}' {}; export it again", element.name, why));
 }
 
-/// Returns the axis that the property is a coordinate of; 3 for other properties.
+/// Returns the axis of which the property is the coordinate; 3 for other properties.
 glm::length_t axis_of(const PlyProperty& property) {
   const bool is_axis =
       property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
@@ -78,7 +78,7 @@ void require_vertex_list(const PlyElement& element) {
     }
   }
   if (lists != 1) {
-    refuse_property(element, fmt::format("with {} lists of the name 'vertex_indices' or "
+    refuse_property(element, fmt::format("with {} lists named 'vertex_indices' or "
                                          "'vertex_index', but one is needed",
                                          lists));
   }
@@ -94,8 +94,8 @@ std::uint64_t require_ply_mesh(const PlyHeader& header) {
   }
   if (!any_face) {
     throw InputError(
-        fmt::format("its header declares {} but no faces, and rays hit nothing of a point cloud; "
-                    "make a surface of it, or export the mesh with its faces",
+        fmt::format("its header declares {} but no faces, and rays cannot hit a point cloud; "
+                    "reconstruct its surface, or export the mesh with its faces",
                     counted(vertices, "vertex", "vertices")));
   }
   for (const PlyElement& element : header.elements) {
@@ -219,7 +219,7 @@ class PlyBody {
     const double number = rows_.number(type);
     constexpr double kLargest = 0x1p53;
     if (!(std::abs(number) <= kLargest) || number != std::floor(number)) {
-      rows_.refuse(fmt::format("'{}' is not the number of a vertex", number));
+      rows_.refuse(fmt::format("'{}' is not a vertex index", number));
     }
     return static_cast<std::int64_t>(number);
   }
@@ -227,8 +227,8 @@ class PlyBody {
   std::uint32_t vertex(std::int64_t index) {
     constexpr std::int64_t kLargest = std::numeric_limits<std::uint32_t>::max();
     if (index < 0 || index > kLargest || static_cast<std::uint64_t>(index) >= vertices_) {
-      rows_.refuse(fmt::format("it has the vertex {}, but there are only {}, counted from 0", index,
-                               vertices_));
+      rows_.refuse(fmt::format("it refers to vertex {}, but there are only {}, counted from 0",
+                               index, vertices_));
     }
     return static_cast<std::uint32_t>(index);
   }
@@ -249,7 +249,7 @@ ImportedMesh read_ply(std::string_view bytes) {
   return mesh_of(PlyBody(rows, vertices).read(header));
 }
 
-/// Incremented whenever this format is read differently.
+/// The version of this importer; increment it whenever the format is read differently.
 constexpr int kPlyVersion = 1;
 
 }  // namespace

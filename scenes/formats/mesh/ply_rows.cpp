@@ -26,7 +26,7 @@ std::optional<double> integer_within(std::string_view word) {
   return static_cast<double>(*number);
 }
 
-/// Returns the value of a word of the type, the same as in a binary file of this type, so that both
+/// Returns the value of a word of the type. It is the same as in a binary file, so that both files
 /// result in the same mesh. A double represents every type exactly.
 std::optional<double> ply_number(std::string_view word, PlyType type) {
   switch (type) {

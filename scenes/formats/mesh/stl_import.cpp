@@ -154,7 +154,7 @@ ImportedMesh read_text_stl(std::string_view text) {
   return collected_mesh(std::move(collector), 0);
 }
 
-/// Returns whether a file is meant to be text, given that its length does not match a binary file.
+/// Returns whether a file is meant to be text, if its length does not match a binary file.
 bool is_text_stl(std::string_view bytes) {
   return is_keyword(TextLines(bytes).word_anywhere(), "solid") &&
          bytes.find('\0') == std::string_view::npos;
@@ -176,7 +176,7 @@ ImportedMesh read_stl(std::string_view bytes) {
                   (*size - kStlHeader) / kFacetBytes, *size, bytes.size()));
 }
 
-/// Incremented whenever this format is read differently.
+/// The version of this importer; increment it whenever the format is read differently.
 constexpr int kStlVersion = 1;
 
 }  // namespace

@@ -83,15 +83,15 @@ constexpr std::array<ViewWord, 8> kWords = {{
      }},
     {"hither", [](NffTokens& tokens, const NffToken&,
                   Camera& camera) { camera.hither = tokens.number("the hither distance"); }},
-    // Our own, written in comments (kOwnComment).
+    // beambench's own words, written in comments (kOwnComment).
     {"name", [](NffTokens& tokens, const NffToken& word,
                 Camera& camera) { camera.name = tokens.rest_of_line(word, "the camera's name"); }},
     {"aspect", [](NffTokens& tokens, const NffToken&,
                   Camera& camera) { camera.aspect = tokens.number("the aspect"); }},
 }};
 
-/// Takes the lines that belong to `view`, the token `v`. The camera's name is empty if the file has
-/// none. Throws InputError with file and line when something is missing.
+/// Takes the lines that belong to `view`, the token `v`. The camera's name is empty if the file
+/// does not state it. Throws InputError with file and line if a required line is missing.
 Camera read_nff_view(NffTokens& tokens, const NffToken& view) {
   Camera camera;
   camera.name.clear();
@@ -159,7 +159,7 @@ class NffReader {
     }
   }
 
-  /// Adds a primitive likewise; a degenerate one is skipped if the options allow it.
+  /// Adds a primitive in the same way; a degenerate primitive is skipped if the options allow it.
   template <typename Add>
   void add_primitive(Add call) {
     add([&] {
@@ -227,8 +227,8 @@ std::optional<NffReader::Command> NffReader::next_command() const {
 }
 
 /// `fp` has the fields of `f`, for surfaces with Phong instead of flat shading
-/// (github.com/mfandre/raytracer, Scene.cc). It is accepted with that number of fields; a truncated
-/// file has fewer.
+/// (github.com/mfandre/raytracer, Scene.cc). It is accepted only with that number of fields,
+/// because a truncated file has fewer.
 std::optional<NffReader::Command> NffReader::dialect_command() const {
   constexpr std::size_t kFields = 8;
   const std::string_view word = tokens_.peek().text;
@@ -317,7 +317,7 @@ void NffReader::read_light_of_a_dialect() {
 /// NFF scenes are static here, so the light stays at its first position.
 void NffReader::read_animated_light() {
   tokens_.take();  // its name
-  note(command_.line, "an animated light is read as one that does not move");
+  note(command_.line, "an animated light is read as a static light");
   read_light();
 }
 
@@ -336,7 +336,7 @@ void NffReader::read_area_light() {
   glm::dvec3 position = corner + 0.5 * (edge + other_edge);
   if (area > 0.0) position += kOffset / std::sqrt(area) * normal;
   note(command_.line, "an area light is read as a point light at its middle",
-       "; its shadows have no soft edges, and it is not seen itself");
+       "; its shadows have no soft edges, and it is not visible");
   add([&] { builder_.add_light(position, color); });
 }
 
@@ -349,7 +349,7 @@ void NffReader::read_finish() {
   read_surface_fields(finished_surface(*find_finish(command_.text)));
 }
 
-/// Replaces the surface's own numbers with those given.
+/// Replaces fields of the surface with the numbers given.
 void NffReader::read_surface_fields(Surface surface) {
   if (tokens_.at_number()) surface.color = tokens_.triple("the color");
   for (float* field : {&surface.diffuse, &surface.specular, &surface.shine, &surface.transmittance,
@@ -404,10 +404,10 @@ void NffReader::read_corners(bool smooth) {
   add_primitive([&] { builder_.add_polygon(vertices, normals); });
   const Repairs& after = builder_.repairs();
   if (after.merged_corners > before.merged_corners) {
-    note(command_.line, "a polygon has consecutive corners at the same place, taken as one");
+    note(command_.line, "a polygon has consecutive corners at the same place, treated as one");
   }
   if (after.replaced_normals > before.replaced_normals) {
-    note(command_.line, "a polygon has a normal of length 0, its own taken instead");
+    note(command_.line, "a polygon has a normal of length 0; its plane's normal is used instead");
   }
 }
 

@@ -22,7 +22,7 @@ struct NffResult {
 /// that the thesis adds; quirks of files in the wild are listed in scenes/README.md). `file` is
 /// used in messages and as the scene's name. Throws InputError with file, line and word if the text
 /// is malformed or truncated, has a number that is not finite or beyond 1e9, or has no command, for
-/// Sense8 WTK files (first word `nff`), and for anything that the options do not allow. A text
+/// Sense8 WTK files (first word `nff`), and for any problem that the options do not allow. A text
 /// without primitives yields an empty scene, which `load_scene` refuses.
 NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions options = {});
 

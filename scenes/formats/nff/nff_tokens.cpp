@@ -73,7 +73,7 @@ bool NffTokens::at_number() const {
 
 std::size_t NffTokens::max_numbers_left() const {
   const auto bytes = static_cast<std::size_t>(end_ - position_) + token_.text.size();
-  return (bytes + 1) / 2;  // each a digit and a blank
+  return (bytes + 1) / 2;  // a number takes at least a digit and a blank
 }
 
 template <typename Number>

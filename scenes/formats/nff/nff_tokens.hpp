@@ -9,8 +9,8 @@
 
 namespace beambench::scenes::nff {
 
-/// Comment lines that begin with this word, which other programs ignore, are read as if the word
-/// were not there.
+/// Comment lines that begin with this word, which other programs ignore, are read as if this word
+/// were absent.
 inline constexpr std::string_view kOwnComment = "#beambench";
 
 /// One word or number. The text is empty at the end of the file.

@@ -30,7 +30,7 @@ glm::dvec3 direction(Random& random) {
   return {reach * portable_cos(angle), reach * portable_sin(angle), z};
 }
 
-/// Assigns each triangle to the nearest of some random directions.
+/// Groups the triangles by the nearest of some random directions.
 std::vector<std::vector<Corners>> pieces_of(const BumpyMesh& mesh, std::size_t count,
                                             Random& random) {
   std::vector<glm::dvec3> sites;
@@ -49,7 +49,7 @@ std::vector<std::vector<Corners>> pieces_of(const BumpyMesh& mesh, std::size_t c
 
 /// A piece of the surface made into a solid: an inner face below it, and a rim around both.
 struct Shard {
-  std::vector<glm::dvec3> vertices;  ///< outer ones, then as many inner ones
+  std::vector<glm::dvec3> vertices;  ///< outer vertices, then as many inner ones
   std::vector<Corners> outer;
   std::vector<Corners> broken;  ///< the inner face and the rim
 };
@@ -154,9 +154,9 @@ Animation animate(const Parameters& parameters) {
 void register_exploding_mesh(Catalogue& catalogue) {
   catalogue.add(
       {.name = "exploding-mesh",
-       .summary = "The sphere of bumpy as a thick shell that breaks into parts, which fly apart, "
-                  "turning",
-       .parameters = {integer_parameter("parts", 60, 2, 1000, "number of parts, at most"),
+       .summary = "The sphere of bumpy as a thick shell that breaks into turning parts, which fly "
+                  "apart",
+       .parameters = {integer_parameter("parts", 60, 2, 1000, "maximum number of parts"),
                       integer_parameter("seed", 7, 0, 0xFFFFFFFF, "seed of the random numbers"),
                       integer_parameter("triangles", 9408, 12, 10000000,
                                         "number of triangles outside, rounded to 12 k^2; the scene "

@@ -13,11 +13,11 @@ namespace {
 constexpr double kFloor = -12.0;
 constexpr double kGravity = 40.0;  // per (total time)^2
 constexpr double kBounce = 0.55;   // the share of its speed kept after a bounce
-constexpr double kSpread = 0.9;    // rolling distance over distance from the axis
+constexpr double kSpread = 0.9;    // rolling distance divided by distance from the axis
 
 /// Returns the height of a ball above its resting position, for a fall from `height`.
 double height_at(double height, double time) {
-  const double first = std::sqrt(2.0 * height / kGravity);  // until it touches the floor
+  const double first = std::sqrt(2.0 * height / kGravity);  // time until it touches the floor
   if (time < first) return height - 0.5 * kGravity * time * time;
   double left = time - first;
   double speed = kGravity * first;
@@ -59,7 +59,7 @@ Animation animate(const Parameters& parameters) {
     const double time = 1.5 * frame / (frames - 1);
     for (std::size_t i = 0; i < balls.size(); ++i) {
       moved.spheres[i].center =
-          glm::vec3(center_at(balls[i], time)) + 0.0F;  // as the builder rounds
+          glm::vec3(center_at(balls[i], time)) + 0.0F;  // rounds as the builder does
     }
     return moved;
   };

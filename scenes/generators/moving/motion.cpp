@@ -16,7 +16,7 @@ Animation with_moving_vertices(Scene scene, std::uint32_t frames, VertexPlaces p
     Pose moved = still;
     auto vertex = moved.vertices.begin();
     for (const glm::dvec3& place : places(frame)) {
-      *vertex++ = glm::vec3(place) + 0.0F;  // as the builder rounds
+      *vertex++ = glm::vec3(place) + 0.0F;  // rounds as the builder does
     }
     return moved;
   };

@@ -19,7 +19,7 @@ namespace {
 
 using modelling::PolygonMesh;
 
-constexpr double kSpacing = 2.3;  // between rings, and approximately between solids of a ring
+constexpr double kSpacing = 2.3;  // distance between rings; approximate between solids of a ring
 
 PolygonMesh torus(int detail) {
   return modelling::parametric_surface(
@@ -74,7 +74,7 @@ std::array<Solid, 5> solids_of(int detail) {
        {modelling::ellipsoid({0.85, 0.6, 0.42}, 4 * detail, 2 * detail), {0.40F, 0.62F, 0.38F}}}};
 }
 
-/// Returns rings of 6, 12, 18... positions about the z axis.
+/// A position in one of the rings about the z axis, which have 6, 12, 18... positions.
 struct Place {
   double ring;
   double along;  ///< fraction of the ring
@@ -87,8 +87,8 @@ Place place_of(std::size_t solid) {
           static_cast<double>(solid) / (6.0 * static_cast<double>(ring))};
 }
 
-/// Every solid turns once about its own axis, rises and sinks, and moves around with its ring;
-/// neighboring rings turn in opposite directions.
+/// Returns a solid's transform. Every solid turns once about its own axis, rises and sinks, and
+/// moves around with its ring; neighboring rings turn in opposite directions.
 glm::dmat4 placed(std::size_t solid, double time) {
   const auto [ring, along] = place_of(solid);
   const double direction = static_cast<int>(ring) % 2 == 0 ? -1.0 : 1.0;
@@ -144,17 +144,16 @@ Animation animate(const Parameters& parameters) {
 }  // namespace
 
 void register_turning_solids(Catalogue& catalogue) {
-  catalogue.add(
-      {.name = "turning-solids",
-       .summary = "Rigid solids of triangles, in rings about a center over a floor; each "
-                  "turns, rises and sinks while its ring carries it",
-       .parameters = {integer_parameter("detail", 8, 2, 256,
-                                        "fineness of the round ones, whose triangles grow "
-                                        "with its square"),
-                      integer_parameter("solids", 18, 1, 100000, "number of solids"),
-                      frames_parameter()},
-       .size_parameter = "detail",
-       .animate = animate});
+  catalogue.add({.name = "turning-solids",
+                 .summary = "Rigid solids of triangles, in rings about a center over a floor; each "
+                            "turns, rises and sinks while its ring carries it",
+                 .parameters = {integer_parameter("detail", 8, 2, 256,
+                                                  "fineness of the round solids, whose number of "
+                                                  "triangles grows with its square"),
+                                integer_parameter("solids", 18, 1, 100000, "number of solids"),
+                                frames_parameter()},
+                 .size_parameter = "detail",
+                 .animate = animate});
 }
 
 }  // namespace beambench::scenes::generators

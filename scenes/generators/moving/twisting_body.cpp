@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kHeight = 3.2;
 
-/// Returns a point of the straight body with its normal. The body is a column of four ribs that
-/// bulges below and tapers to a point at both ends.
+/// A point of the body with its normal. The body is a column of four ribs that bulges near the
+/// bottom and tapers to a point at both ends.
 struct Point {
   glm::dvec3 place;
   glm::dvec3 normal;
@@ -35,7 +35,7 @@ glm::dvec3 straight_place(double around, double up) {
 }
 
 Point straight_point(double around, double up) {
-  // Differences rather than derivatives: the normals only affect shading.
+  // Differences suffice instead of derivatives, because the normals only affect shading.
   constexpr double kStep = 1e-4;
   const double low = std::fmax(up - kStep, 1e-9);
   const double high = std::fmin(up + kStep, 1.0 - 1e-9);
@@ -46,7 +46,7 @@ Point straight_point(double around, double up) {
 }
 
 /// Returns the point after a twist of `turns` full turns from the bottom to the top. The normal is
-/// moved by the inverse transpose of the twist's derivative.
+/// transformed by the inverse transpose of the twist's derivative.
 Point twisted(const Point& point, double turns) {
   const auto& [p, n] = point;
   const double rate = kFullTurn * turns / kHeight;
@@ -57,13 +57,13 @@ Point twisted(const Point& point, double turns) {
   return {{cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z}, glm::normalize(normal)};
 }
 
-/// The grid of the body: `around` columns, and `up` rows between the two tips.
+/// The grid of the body: `around` columns, and `up` steps from the bottom tip to the top tip.
 struct Grid {
   std::uint32_t around;
   std::uint32_t up;
 
   std::size_t size() const { return std::size_t{around} * (up - 1) + 2; }
-  /// Returns the vertex in a row; the rows 0 and `up` are the tips.
+  /// Returns the vertex in a column and a row; rows 0 and `up` are the tips.
   std::uint32_t vertex(std::uint32_t column, std::uint32_t row) const {
     if (row == 0) return 0;
     if (row == up) return around * (up - 1) + 1;
@@ -95,7 +95,7 @@ void for_each_triangle(const Grid& grid, Add add) {
   }
 }
 
-/// Returns the stripes: two pairs of light and dark ones for each rib.
+/// Returns the surface of a column: each rib has two pairs of a light and a dark stripe.
 Surface stripe(std::uint32_t column, std::uint32_t around) {
   const bool light = (8 * column / around) % 2 == 0;
   return {.color = light ? glm::vec3(0.92F, 0.88F, 0.78F) : glm::vec3(0.16F, 0.42F, 0.44F),
@@ -137,7 +137,7 @@ Animation animate(const Parameters& parameters) {
     std::vector<glm::vec3> normals;
     for (std::size_t i = 0; i < straight.size(); ++i) {
       const Point point = twisted(straight[i], twist);
-      moved.vertices[i] = glm::vec3(point.place) + 0.0F;  // as the builder rounds
+      moved.vertices[i] = glm::vec3(point.place) + 0.0F;  // rounds as the builder does
       normals.push_back(glm::vec3(point.normal) + 0.0F);
     }
     auto next = moved.normals.begin();
@@ -159,7 +159,7 @@ void register_twisting_body(Catalogue& catalogue) {
                  .parameters = {integer_parameter("triangles", 20000, 32, 20000000,
                                                   "number of triangles of the body, approximately"),
                                 real_parameter("turns", 1.0, -10.0, 10.0,
-                                               "full turns of its top in the last frame"),
+                                               "full turns of the body's top in the last frame"),
                                 frames_parameter()},
                  .size_parameter = "triangles",
                  .animate = animate});

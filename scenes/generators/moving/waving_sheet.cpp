@@ -14,7 +14,7 @@ constexpr double kWidth = 3.0;  // the sheet is 3 wide, from its pole at x = 0, 
 constexpr double kHeight = 2.0;
 
 /// Returns the vertex of the sheet at (u, v) in [0, 1]^2 after `passed` waves have gone by. The
-/// waves run from the pole to the free edge and grow on their way; a second one runs obliquely.
+/// waves run from the pole to the free edge and grow on their way; a second series runs obliquely.
 glm::dvec3 on_sheet(double u, double v, double passed) {
   const double first = portable_sin(kFullTurn * (1.6 * u + 0.15 * v - passed));
   const double second = portable_sin(kFullTurn * (2.7 * u - 0.6 * v - 2.0 * passed));
@@ -24,7 +24,7 @@ glm::dvec3 on_sheet(double u, double v, double passed) {
           reach * (0.34 * first + 0.09 * second), kHeight * v - 0.10 * u * u + 0.06 * reach * sag};
 }
 
-/// Returns one of five stripes, from blue to gold.
+/// Returns the surface of the stripe at v, one of five from blue to gold.
 Surface surface_at(double v) {
   constexpr std::array<glm::vec3, 5> kColors = {{{0.13F, 0.24F, 0.46F},
                                                  {0.42F, 0.24F, 0.48F},
@@ -73,7 +73,7 @@ void register_waving_sheet(Catalogue& catalogue) {
   catalogue.add({.name = "waving-sheet",
                  .summary =
                      "A sheet of 2 k^2 triangles (20,000 by default), fixed at one edge; waves "
-                     "travel along it, once per cycle of its frames",
+                     "travel along it, once per cycle of the frames",
                  .parameters = {integer_parameter("triangles", 20000, 2, 20000000,
                                                   "number of triangles, rounded to 2 k^2"),
                                 frames_parameter()},

@@ -28,9 +28,9 @@ constexpr Surface kWater{.color = {0.75F, 0.92F, 0.95F},
                          .refraction_index = 1.33F};
 const glm::dvec3 kLower(-1.6, 0.0, 0.0);  // the corners of the body of water
 const glm::dvec3 kUpper(1.6, 1.3, 1.75);
-constexpr double kGap = 0.02;   // from the water to everything outside
-constexpr double kBed = 0.02;   // from the water's bottom face to the stones
-constexpr double kSide = 0.04;  // from the water's upright faces to the stones
+constexpr double kGap = 0.02;   // distance from the water to everything outside
+constexpr double kBed = 0.02;   // distance from the water's bottom face to the stones
+constexpr double kSide = 0.04;  // distance from the water's upright faces to the stones
 
 glm::dmat4 placed(const glm::dvec3& place, double heading) {
   return glm::translate(glm::dmat4(1.0), place) * modelling::rotation(2, heading);
@@ -41,7 +41,7 @@ void add(SceneBuilder& builder, const modelling::PolygonMesh& mesh, const glm::v
   modelling::add_flat(builder, modelling::triangulated(mesh));
 }
 
-/// Adds a bed of 3 d x d stones, 36 triangles each, that may overlap.
+/// Adds a bed of 3 `detail` x `detail` stones, which have 36 triangles each and may overlap.
 void add_stones(SceneBuilder& builder, int detail) {
   constexpr std::array<glm::vec3, 4> kColors = {
       {{0.72F, 0.62F, 0.48F}, {0.55F, 0.50F, 0.45F}, {0.80F, 0.74F, 0.62F}, {0.60F, 0.46F, 0.34F}}};
@@ -79,7 +79,7 @@ struct Colors {
 
 struct Swimmer {
   glm::dvec3 place;
-  double heading, climb;  ///< degrees: about z, then the head up
+  double heading, climb;  ///< degrees: turned about z, then head up
   double length;
   std::size_t colors;
 };
@@ -125,7 +125,7 @@ void add_fish(SceneBuilder& builder, int detail) {
   }
 }
 
-/// Adds five plants of nine leaves, with 8 d - 2 triangles each.
+/// Adds five plants with nine leaves each. Every leaf has 8 `detail` - 2 triangles.
 void add_plants(SceneBuilder& builder, int detail) {
   struct Plant {
     glm::dvec2 root;
@@ -152,7 +152,7 @@ void add_plants(SceneBuilder& builder, int detail) {
   }
 }
 
-/// Adds an open amphora that lies on the stones, of 16 d^2 triangles.
+/// Adds an open amphora of 16 `detail`^2 triangles that lies on the stones.
 void add_amphora(SceneBuilder& builder, int detail) {
   std::vector<glm::dvec2> profile;
   for (int i = 0; i <= 2 * detail; ++i) {
@@ -198,7 +198,7 @@ void add_frame(SceneBuilder& builder) {
   add(builder, frame, {0.12F, 0.12F, 0.14F});
 }
 
-/// Adds the cabinet below the water and a wall of 6 d x 4 d tiles behind it.
+/// Adds the cabinet below the water and a wall of 6 `detail` x 4 `detail` tiles behind it.
 void add_surroundings(SceneBuilder& builder, int detail) {
   add(builder, modelling::box({-2.2, -0.5, -1.0}, {2.2, 2.1, -kGap}), {0.50F, 0.33F, 0.20F});
   const auto plane = [](double u, double v) {
@@ -252,7 +252,7 @@ void register_aquarium(Catalogue& catalogue) {
       {"aquarium",
        "A box of water with fish, plants and stones in it, before a wall of tiles: 268 d^2 + "
        "408 d + 2178 triangles and 6 faces of water (22,600 by default)",
-       {integer_parameter("detail", 8, 1, 100, "d: how finely everything is divided")},
+       {integer_parameter("detail", 8, 1, 100, "d: fineness of all parts")},
        generate,
        "detail"});
 }

@@ -13,7 +13,7 @@ namespace beambench::scenes::generators {
 namespace {
 
 /// The points of a cube's surface on a grid of k cells per edge, numbered layer by layer: a full
-/// square at the bottom, a ring of 4 k points in between, a full square at the top.
+/// square at the bottom, rings of 4 k points, and a full square at the top.
 class CubeGrid {
  public:
   explicit CubeGrid(std::uint32_t k) : k_(k) {}
@@ -43,7 +43,7 @@ class CubeGrid {
   }
 
  private:
-  /// Visits the square's border once from (0, 0), counter-clockwise.
+  /// Returns a point's number on the square's border, counted counter-clockwise from (0, 0).
   std::uint32_t ring(std::uint32_t x, std::uint32_t y) const {
     if (y == 0 && x < k_) return x;
     if (x == k_ && y < k_) return k_ + y;
@@ -54,8 +54,8 @@ class CubeGrid {
   std::uint32_t k_;
 };
 
-/// Returns a smooth wave of period 1 between -1 and 1, made of polynomials: sines differ between
-/// machines.
+/// Returns a smooth wave of period 1 between -1 and 1, made of polynomials because sines differ
+/// between machines.
 double wave(double x) {
   const double t = x - std::floor(x);
   const double u = t < 0.5 ? t : t - 0.5;
@@ -85,8 +85,8 @@ std::uint32_t cells_per_edge(std::int64_t triangles) {
       std::max<std::int64_t>(1, below + (over_by < short_by ? 1 : 0)));
 }
 
-/// Adds the two sides of the cube across one axis, two triangles per cell, counter-clockwise from
-/// outside.
+/// Adds the two sides of the cube across one axis, with two triangles per cell, counter-clockwise
+/// as seen from outside.
 void add_sides(BumpyMesh& mesh, const CubeGrid& grid, std::uint32_t k, std::size_t axis) {
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;

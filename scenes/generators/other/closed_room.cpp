@@ -14,7 +14,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-const glm::dvec3 kRoom(10.0, 8.0, 4.0);  // from the origin
+const glm::dvec3 kRoom(10.0, 8.0, 4.0);  // the corner opposite the origin
 
 modelling::PolygonMesh moved(modelling::PolygonMesh mesh, const glm::dvec3& to) {
   return modelling::transformed(std::move(mesh), glm::translate(glm::dmat4(1.0), to));
@@ -24,8 +24,8 @@ modelling::PolygonMesh ball(double radius, int slices, int stacks) {
   return modelling::ellipsoid(glm::dvec3(radius), slices, stacks);
 }
 
-/// Returns the room's six sides, facing inward, of 3 d x 2 d x d squares: closed, with shared
-/// edges.
+/// Returns the room's six sides, facing inward and divided into 3 d x 2 d x d squares. They are
+/// closed and share edges.
 modelling::PolygonMesh shell(int detail) {
   modelling::PolygonMesh sides;
   for (int axis = 0; axis < 3; ++axis) {
@@ -114,9 +114,9 @@ Scene generate(const Parameters& parameters) {
 void register_closed_room(Catalogue& catalogue) {
   catalogue.add(
       {"closed-room",
-       "A closed hall of columns, tables and balls, seen from inside, of 516 d^2 - 116 d + 176 "
+       "A closed hall of columns, tables and balls, seen from inside: 516 d^2 - 116 d + 176 "
        "triangles (32,272 by default)",
-       {integer_parameter("detail", 8, 1, 140, "d: how finely everything is divided")},
+       {integer_parameter("detail", 8, 1, 140, "d: fineness of all parts")},
        generate,
        "detail"});
 }

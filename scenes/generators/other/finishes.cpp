@@ -7,7 +7,7 @@ namespace beambench::scenes::generators {
 namespace {
 
 constexpr std::array<std::array<Finish, 4>, 3> kRows = {{
-    // from the front to the back
+    // rows from front to back
     {Finish::kReflect, Finish::kGlass, Finish::kShiny, Finish::kClouds},
     {Finish::kCherryWood, Finish::kDarkWood, Finish::kPineWood, Finish::kGranite},
     {Finish::kRedMarble, Finish::kWhiteMarble, Finish::kBlueMarble, Finish::kBlackMarble},
@@ -60,8 +60,8 @@ Scene generate(const Parameters& parameters) {
 void register_finishes(Catalogue& catalogue) {
   catalogue.add(
       {"finishes",
-       "A ball of each of the thesis's surfaces and textures: in front mirror, glass, shiny and "
-       "clouds, then three woods and granite, at the back four marbles",
+       "A ball of each of the thesis's surfaces and textures: mirror, glass, shiny and clouds in "
+       "front, three woods and granite in the middle, four marbles at the back",
        {},
        generate});
 }

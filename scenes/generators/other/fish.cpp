@@ -18,7 +18,7 @@ namespace beambench::scenes::generators {
 namespace {
 
 constexpr double kTailRoot = -0.30;  // the x where the body ends
-constexpr double kFlatness = 0.48;   // width of the body over its height
+constexpr double kFlatness = 0.48;   // width of the body divided by its height
 
 /// Returns the body, revolved about z and then laid along x and flattened.
 modelling::PolygonMesh body(int detail) {

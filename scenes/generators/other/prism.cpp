@@ -23,7 +23,7 @@ constexpr Surface kGlass{.color = {0.90F, 0.97F, 0.94F},
                          .shine = 60.0F,
                          .transmittance = 0.85F,
                          .refraction_index = 1.5F};
-constexpr double kGap = 0.03;  // between the glass and the table
+constexpr double kGap = 0.03;  // gap between the glass and the table
 constexpr double kHalfWidth = 4.5;
 constexpr double kWallHeight = 3.6;
 constexpr double kWall = 3.0;  // the y of the wall
@@ -39,7 +39,7 @@ void add(SceneBuilder& builder, const modelling::PolygonMesh& mesh, const glm::v
 
 /// Adds two separate bodies: a prism with angles of 30, 60 and 90 degrees and an upright face
 /// turned toward the camera, and a plate. The corners of an upright face have only two positions in
-/// x and y and two in z, so that the face stays flat when they are rounded.
+/// x and y and two in z, so that the face stays flat when the corners are rounded.
 void add_glass(SceneBuilder& builder) {
   builder.set_surface(kGlass);
   const modelling::PolygonMesh prism =
@@ -66,7 +66,7 @@ void add_wall(SceneBuilder& builder, int detail) {
         return kTiles[(tile % width + tile / width) % 2];
       });
 
-  constexpr std::array<std::string_view, 2> kWords = {"TABLE", "BLEAT"};  // of the same letters
+  constexpr std::array<std::string_view, 2> kWords = {"TABLE", "BLEAT"};  // anagrams
   constexpr std::array<glm::vec3, 4> kColors = {
       {{0.72F, 0.12F, 0.10F}, {0.08F, 0.25F, 0.55F}, {0.10F, 0.42F, 0.20F}, {0.45F, 0.15F, 0.45F}}};
   const double side = 2.0 * kHalfWidth / columns;
@@ -142,7 +142,7 @@ void register_prism(Catalogue& catalogue) {
       {"prism",
        "A prism and a plate of glass before a wall of letters and rows of blocks: 336 d^2 + 660 "
        "d + 12 triangles and 11 faces of glass (26,807 by default)",
-       {integer_parameter("detail", 8, 1, 100, "d: how finely everything is divided")},
+       {integer_parameter("detail", 8, 1, 100, "d: fineness of all parts")},
        generate,
        "detail"});
 }

@@ -27,9 +27,9 @@ Scene generate(const Parameters& parameters) {
   builder.set_surface({.color = {0.75F, 0.80F, 0.35F}, .diffuse = 0.9F});
 
   const std::int64_t count = parameters.integer("triangles");
-  std::int64_t cells = 1;  // on each axis of a grid with one cell per triangle
+  std::int64_t cells = 1;  // along each axis of a grid with at least one cell per triangle
   while (cells * cells * cells < count) ++cells;
-  const double reach = 0.6 / static_cast<double>(cells);  // of a corner from its triangle's center
+  const double reach = 0.6 / static_cast<double>(cells);  // from a triangle's center to a corner
   Random random(static_cast<std::uint64_t>(parameters.integer("seed")));
   for (std::int64_t i = 0; i < count; ++i) {
     const glm::dvec3 middle = point_in_cube(random, 1.0);
@@ -45,8 +45,8 @@ Scene generate(const Parameters& parameters) {
 void register_soup(Catalogue& catalogue) {
   catalogue.add(
       {"soup",
-       "Small triangles at random in a cube; none shares a corner with another, and the more "
-       "there are the smaller they get",
+       "Small triangles at random in a cube; no two share a corner, and the more triangles there "
+       "are, the smaller they get",
        {integer_parameter("seed", 1, 0, 0xFFFFFFFF, "seed of the random numbers"),
         integer_parameter("triangles", 20000, 1, 20000000, "number of triangles")},
        generate,

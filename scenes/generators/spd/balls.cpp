@@ -13,9 +13,9 @@ namespace {
 
 using Directions = std::array<glm::dvec3, 9>;
 
-/// Returns the positions of the nine children in their parent's frame: six on the equator at
-/// azimuth 15 + 60 k degrees, three at an elevation whose tangent is sqrt 2, at azimuth 45 + 120 k
-/// degrees. Computed with square roots only, which are the same on every machine.
+/// Returns the directions of the nine children in their parent's frame: six on the equator at
+/// azimuth 15 + 60 k degrees, and three at an elevation whose tangent is sqrt 2, at azimuth 45 +
+/// 120 k degrees. They are computed with square roots only, which are the same on every machine.
 Directions child_directions() {
   const double cos15 = (std::sqrt(6.0) + std::sqrt(2.0)) / 4.0;
   const double sin15 = (std::sqrt(6.0) - std::sqrt(2.0)) / 4.0;

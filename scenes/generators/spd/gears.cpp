@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kTeeth = 36;
 constexpr int kRim = 4 * kTeeth;     // corners of a face: two at a tooth's tip, two at its foot
-constexpr double kTipRatio = 0.995;  // of the outer radius: meshing gears keep a gap
-constexpr double kFootRatio = 0.9;   // of the outer radius
-constexpr double kThickness = 0.1;   // at most
+constexpr double kTipRatio = 0.995;  // relative to the outer radius: meshing gears keep a gap
+constexpr double kFootRatio = 0.9;   // relative to the outer radius
+constexpr double kThickness = 0.1;   // maximum thickness
 
-/// Returns the outline of a gear around the origin, counter-clockwise from the first tooth's tip.
+/// The outline of a gear around the origin, counter-clockwise from the first tooth's tip.
 using Outline = std::array<glm::dvec2, kRim>;
 
 Outline outline(double outer_radius, double turned_by) {
@@ -36,7 +36,8 @@ Outline outline(double outer_radius, double turned_by) {
   return corners;
 }
 
-/// Upper face, the quads around it, lower face; 2 kRim vertices are shared.
+/// Adds a gear: its upper face, the quads around it, and its lower face, over 2 kRim shared
+/// vertices.
 void add_gear(SceneBuilder& builder, const Outline& corners, const glm::dvec3& center,
               double thickness) {
   std::array<std::uint32_t, kRim> upper{};
@@ -51,14 +52,14 @@ void add_gear(SceneBuilder& builder, const Outline& corners, const glm::dvec3& c
     const std::size_t next = (i + 1) % kRim;
     builder.add_polygon(std::array{upper[i], lower[i], lower[next], upper[next]});
   }
-  // In reverse, because the face points down; starting at the same tooth.
+  // The corners are in reverse, because the face points down, but start at the same tooth.
   std::array<std::uint32_t, kRim> face{};
   for (std::size_t i = 0; i < kRim; ++i) face[i] = lower[(kRim + 1 - i) % kRim];
   builder.add_polygon(face);
 }
 
-/// Returns a color that looks random, brightened until its largest component is 1; every fifth is
-/// glass.
+/// Returns a surface whose color looks random and is brightened until its largest component is 1.
+/// Every fifth gear is glass.
 Surface gear_surface(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto component = [](std::int64_t sevenths) {
     return 0.01 + static_cast<double>(sevenths % 7) / 7.0;
@@ -81,7 +82,7 @@ void add_gears(SceneBuilder& builder, std::int64_t n) {
   const double outer_radius = 1.0 / (count - (count - 1.0) * (1.0 - kFootRatio) / 2.0);
   const double thickness = std::min(kThickness, 1.0 / (2.0 * count));
   const double spacing = outer_radius * (1.0 + kFootRatio);
-  // Neighbors are turned by half a tooth.
+  // Neighboring gears are turned by half a tooth.
   const std::array<Outline, 2> outlines = {outline(outer_radius, 0.0),
                                            outline(outer_radius, std::numbers::pi / kTeeth)};
   for (std::int64_t z = 0; z < n; ++z) {

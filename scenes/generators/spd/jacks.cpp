@@ -9,11 +9,11 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kArm = 0.75;  // of a jack's cube of half-size 1: neighbors do not touch
+constexpr double kArm = 0.75;  // in a jack's cube of half-size 1; neighbors do not touch
 constexpr double kCylinderRadius = 0.1 * kArm;
 constexpr double kSphereRadius = 0.2 * kArm;
 
-/// Three crossed cylinders with spheres on their ends.
+/// Adds a jack: three crossed cylinders with spheres on their ends.
 void add_jack(SceneBuilder& builder, const glm::dmat3& axes, const glm::dvec3& center,
               double size) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -27,7 +27,7 @@ void add_jack(SceneBuilder& builder, const glm::dmat3& axes, const glm::dvec3& c
   }
 }
 
-/// Adds a jack, and one of half its size in the middle of each octant between its arms.
+/// Adds a jack and, in the middle of each octant between its arms, jacks of half its size.
 void add_jacks(SceneBuilder& builder, const glm::dmat3& axes, const glm::dvec3& center, double size,
                std::int64_t generations) {
   add_jack(builder, axes, center, size);
@@ -42,7 +42,7 @@ void add_jacks(SceneBuilder& builder, const glm::dmat3& axes, const glm::dvec3& 
   }
 }
 
-/// Turned by -20 degrees about y, then by -30 about x; by columns.
+/// Returns the axes, turned by -20 degrees about y, then by -30 about x, as columns.
 glm::dmat3 turned_axes() {
   const double cx = portable_cos(-30.0 * std::numbers::pi / 180.0);
   const double sx = portable_sin(-30.0 * std::numbers::pi / 180.0);

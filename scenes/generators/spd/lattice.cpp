@@ -8,7 +8,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kSphereRadius = 1.0 / 4.0;  // both of a cell's edge
+constexpr double kSphereRadius = 1.0 / 4.0;  // both radii are relative to a cell's edge
 constexpr double kCylinderRadius = 1.0 / 16.0;
 
 const Surface kSphereSurface = {
@@ -18,7 +18,7 @@ const std::array<Surface, 3> kCylinderSurfaces = {
      {.color = {0.1F, 0.9F, 0.1F}, .diffuse = 0.99F},
      {.color = {0.1F, 0.1F, 0.9F}, .diffuse = 0.99F}}};
 
-/// Adds a sphere at each corner of the cells, a cylinder along each edge.
+/// Adds a sphere at each corner of the cells and a cylinder along each edge.
 void add_lattice(SceneBuilder& builder, std::int64_t n) {
   const double edge = 1.0 / static_cast<double>(n);
   // A cylinder begins inside its sphere, where it is certainly hidden.
@@ -55,7 +55,7 @@ Scene generate(const Parameters& parameters) {
                       .up = {0.2F, 1.0F, 0.0F},
                       .angle = 60.0F});
   builder.set_background(kSpdSky);
-  const glm::dvec3 light(std::sqrt(1.0 / 6.0));  // this generator divides by the number itself
+  const glm::dvec3 light(std::sqrt(1.0 / 6.0));  // the SPD's lattice scales its lights
   builder.add_light({2.0, 0.5, 0.5}, light);
   builder.add_light({-1.0, 0.5, 0.5}, light);
   builder.add_light({0.5, 2.0, 0.5}, light);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFractalDimension = 2.2;
 constexpr double kHalfSize = 1.0;
-constexpr std::int64_t kMountain = 21;  // another number is another mountain
+constexpr std::int64_t kMountain = 21;  // each number gives a different mountain
 
 /// Returns a normal deviate that depends only on the seed: the polar method over a linear
 /// congruential generator modulo 134456 (Numerical Recipes).
@@ -69,7 +69,7 @@ class Mountain {
  private:
   std::size_t at(std::size_t x, std::size_t y) const { return y * (cells_ + 1) + x; }
 
-  /// Displaces the centers of all squares of that width, and of their sides.
+  /// Displaces the centers of all squares of that width and the middles of their sides.
   void displace(std::size_t width) {
     const std::size_t half = width / 2;
     const double rise =
@@ -160,7 +160,7 @@ Scene generate(const Parameters& parameters) {
 void register_mount(Catalogue& catalogue) {
   catalogue.add({"mount",
                  "Fractal mountain of 2 * 4^n triangles and four glass spheres (Haines's SPD)",
-                 {integer_parameter("n", 6, 1, 12, "each halves the cells of the grid")},
+                 {integer_parameter("n", 6, 1, 12, "each step halves the cells of the grid")},
                  generate,
                  "n"});
 }

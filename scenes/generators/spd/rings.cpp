@@ -11,13 +11,13 @@ namespace beambench::scenes::generators {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kRadius = 0.07412;  // of cylinders and spheres: rings nearly touch
+constexpr double kRadius = 0.07412;  // of cylinders and spheres; rings nearly touch
 
 /// Six pentagons around the origin whose 30 corners are the middles of a dodecahedron's edges.
 using Pentagons = std::array<std::array<glm::dvec3, 5>, 6>;
 
 Pentagons pentagons() {
-  const double scale = 1.0 / (1.0 + kRadius);  // the whole fits a sphere of radius 1
+  const double scale = 1.0 / (1.0 + kRadius);  // the rings together fit a sphere of radius 1
   // The cosine of the angle between neighboring faces of a dodecahedron is -1 / sqrt 5.
   const double tilt_cos = -std::sqrt(1.0 / 5.0);
   const double tilt_sin = std::sqrt(4.0 / 5.0);
@@ -56,7 +56,7 @@ void add_rings(SceneBuilder& builder, const Pentagons& rings, const glm::dvec3& 
   }
 }
 
-/// Adds the pyramid: layer k away from the eye has k x k objects.
+/// Adds the pyramid: layer k, counted away from the eye, has k x k objects.
 void add_pyramid(SceneBuilder& builder, std::int64_t layers, double layer_distance) {
   const Pentagons rings = pentagons();
   for (std::int64_t depth = 0; depth < layers; ++depth) {

@@ -26,8 +26,8 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-/// Pickover's shell (IEEE CG&A 9(6), 1989): spheres as large as their distance from the axis, along
-/// a spiral that grows by e^(0.15 theta); six turns below theta = 0 and three above.
+/// Adds Pickover's shell (IEEE CG&A 9(6), 1989): spheres as large as their distance from the axis,
+/// along a spiral that grows by e^(0.15 theta), with six turns below theta = 0 and three above.
 void add_shell(SceneBuilder& builder, std::int64_t steps, std::int64_t left_out) {
   constexpr double kTurns = 9.0;
   constexpr double kGrowth = 0.15;
@@ -43,7 +43,7 @@ void add_shell(SceneBuilder& builder, std::int64_t steps, std::int64_t left_out)
 void register_shells(Catalogue& catalogue) {
   catalogue.add({"shells",
                  "Seashell of 180 * 2^n + 1 nearly concentric spheres (Haines's SPD)",
-                 {integer_parameter("n", 5, 0, 16, "each doubles the spheres of the same shell")},
+                 {integer_parameter("n", 5, 0, 16, "each step doubles the shell's spheres")},
                  generate,
                  "n"});
 }

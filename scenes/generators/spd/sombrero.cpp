@@ -19,7 +19,8 @@ double ripple(double x, double z) {
 }
 
 /// Adds a height field of `width` x `width` points. As in the SPD, the heights are computed for a
-/// grid of `width` cells but placed on one of `width` - 1 cells, so the hat is slightly off center.
+/// grid of `width` cells but placed on a grid of `width` - 1 cells, so the hat is slightly off
+/// center.
 void add_hat(SceneBuilder& builder, std::uint32_t width) {
   const double sampled = 2.0 * kHalfSize / width;
   const double spaced = 2.0 * kHalfSize / (width - 1);
@@ -59,7 +60,7 @@ Scene generate(const Parameters& parameters) {
 void register_sombrero(Catalogue& catalogue) {
   catalogue.add({"sombrero",
                  "Height field of 2 (32 * 2^(n-1) - 1)^2 triangles (SPD)",
-                 {integer_parameter("n", 1, 1, 8, "each doubles the points along both sides")},
+                 {integer_parameter("n", 1, 1, 8, "each step doubles the points along both sides")},
                  generate,
                  "n"});
 }

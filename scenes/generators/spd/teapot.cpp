@@ -19,11 +19,11 @@ using BezierPatch = std::array<std::array<glm::dvec3, 4>, 4>;
 
 struct PatchPoint {
   glm::dvec3 position;
-  glm::dvec3 normal;  ///< of any length; 0 where the surface has none
+  glm::dvec3 normal;  ///< may have any length; 0 where the surface has no normal
 };
 
 /// Four control points of a quarter circle of that radius at that height. The inner points of
-/// Newell's arcs are at 0.56 of the radius (of the lid's knob, 0.5625), not at 0.5523, which
+/// Newell's arcs are at 0.56 of the radius (0.5625 for the lid's knob), not at 0.5523, which
 /// approximates a circle best.
 struct Arc {
   double radius;
@@ -32,7 +32,8 @@ struct Arc {
 };
 using LatheSection = std::array<Arc, 4>;
 
-/// Turned around the z axis: rim; body, upper and lower half; knob and lid. Clockwise from above.
+/// The sections turned around the z axis, clockwise from above: rim; upper and lower body; knob and
+/// lid.
 constexpr std::array<LatheSection, 3> kBody = {
     {{{{1.4, 2.4}, {1.3375, 2.53125}, {1.4375, 2.53125}, {1.5, 2.4}}},
      {{{1.5, 2.4}, {1.75, 1.875}, {2.0, 1.35}, {2.0, 0.9}}},
@@ -40,11 +41,11 @@ constexpr std::array<LatheSection, 3> kBody = {
 constexpr std::array<LatheSection, 2> kLid = {
     {{{{0.0, 3.15}, {0.8, 3.15, 0.5625}, {0.0, 2.85}, {0.2, 2.7}}},
      {{{0.2, 2.7}, {0.4, 2.55}, {1.3, 2.55}, {1.3, 2.4}}}}};
-/// The bottom, counter-clockwise because it is seen from below.
+/// The bottom, which is turned counter-clockwise because it is seen from below.
 constexpr LatheSection kBottom = {{{0.0, 0.0}, {1.425, 0.0}, {1.5, 0.075}, {1.5, 0.15}}};
 
-/// Four control points around one side of a tube: from a point of the plane y = 0, out to y =
-/// -width and to another point of that plane.
+/// Four control points around one side of a tube: from a point of the plane y = 0 out to y = -width
+/// and back to another point of the plane.
 struct Loop {
   glm::dvec2 from;  ///< x and z
   glm::dvec2 to;
@@ -86,7 +87,7 @@ void append_lathe(std::vector<BezierPatch>& patches, const LatheSection& section
   }
 }
 
-/// Appends the two sides of a tube: -y from `from` to `to`, then back on +y.
+/// Appends the two sides of a tube: from `from` to `to` on the -y side, then back on the +y side.
 void append_tube(std::vector<BezierPatch>& patches, const TubeSection& section) {
   BezierPatch side;
   BezierPatch other;
@@ -108,15 +109,15 @@ struct CubicBasis {
   std::array<double, 4> derivative;
 };
 
-/// Bernstein's polynomials of degree 3.
+/// Returns Bernstein's polynomials of degree 3.
 CubicBasis cubic_basis(double t) {
   const double u = 1.0 - t;
   return {{u * u * u, 3.0 * t * u * u, 3.0 * t * t * u, t * t * t},
           {-3.0 * u * u, 3.0 * u * (u - 2.0 * t), 3.0 * t * (2.0 * u - t), 3.0 * t * t}};
 }
 
-/// Rim, body, handle, spout, lid and bottom, standing on z = 0 around the z axis, the spout toward
-/// +x, 3.15 high: the SPD's, not lowered by Blinn's factor of 1.3.
+/// Returns rim, body, handle, spout, lid and bottom, standing on z = 0 around the z axis, with the
+/// spout toward +x. The teapot is 3.15 high, as in the SPD, not lowered by Blinn's factor of 1.3.
 std::vector<BezierPatch> teapot_patches() {
   std::vector<BezierPatch> patches;
   for (const LatheSection& section : kBody) append_lathe(patches, section, -1.0);
@@ -159,7 +160,7 @@ class PatchMesh {
     }
   }
 
-  /// Adds two triangles for each cell; only one at a pole, where one side of the cell is a point.
+  /// Adds two triangles for each cell, but only one at a pole, where a side of the cell is a point.
   void add_triangles() const {
     for (std::int64_t i = 0; i < n_; ++i) {
       for (std::int64_t j = 0; j < n_; ++j) {
@@ -174,8 +175,8 @@ class PatchMesh {
     const auto n = static_cast<double>(n_);
     const PatchPoint at =
         evaluate_patch(patch, static_cast<double>(i) / n, static_cast<double>(j) / n);
-    // Only the lid's tip and the middle of the bottom lie on the axis; there the patch's first row
-    // is a single point without a normal.
+    // Only the lid's tip and the middle of the bottom lie on the axis. At these two points, the
+    // patch's first row is a single point without a normal.
     const bool pole = at.position.x == 0.0 && at.position.y == 0.0;
     if (pole && j > 0) return point(i, 0);
     const glm::dvec3 normal =

@@ -6,7 +6,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// The corners of the cube [-1, 1]^3 whose signs multiply to +1: a regular tetrahedron.
+/// The corners of the cube [-1, 1]^3 whose coordinates multiply to +1: a regular tetrahedron.
 constexpr std::array<glm::dvec3, 4> kCorners = {
     {{1.0, 1.0, 1.0}, {1.0, -1.0, -1.0}, {-1.0, 1.0, -1.0}, {-1.0, -1.0, 1.0}}};
 /// The tetrahedron's faces, counter-clockwise seen from outside; face i is opposite corner i.

@@ -11,18 +11,19 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kWidthOfHeight = 0.15;  // base radius over a branch's unshrunk length
-constexpr double kTaper = 0.67;          // a branch's upper radius over its lower
+constexpr double kWidthOfHeight = 0.15;  // base radius divided by a branch's unshrunk length
+constexpr double kTaper = 0.67;          // a branch's upper radius divided by its lower one
 
 /// How a branch grows from the end of another (Aono and Kunii, IEEE CG&A 4(5), 1984).
 struct Growth {
   double bend;         ///< degrees away from the parent's direction
-  double divergence;   ///< degrees around it
-  double contraction;  ///< of the length
+  double divergence;   ///< degrees around the parent's direction
+  double contraction;  ///< factor of the length
 };
 constexpr std::array<Growth, 2> kGrowths = {{{40.0, 90.0, 0.65}, {25.0, 230.0, 0.70}}};
 
-/// Returns the matrix that takes a branch's own axes to its parent's: about x, about z, shrink.
+/// Returns the matrix from a branch's own axes to its parent's: turns about x, turns about z,
+/// shrinks.
 glm::dmat3 relative_axes(const Growth& growth) {
   const double bend = growth.bend * std::numbers::pi / 180.0;
   const double turn = growth.divergence * std::numbers::pi / 180.0;
@@ -30,7 +31,7 @@ glm::dmat3 relative_axes(const Growth& growth) {
   const double sb = portable_sin(bend);
   const double ct = portable_cos(turn);
   const double st = portable_sin(turn);
-  // By columns.
+  // The matrix is given by columns.
   return growth.contraction * glm::dmat3(ct, st, 0.0, -st * cb, ct * cb, sb, st * sb, -ct * sb, cb);
 }
 

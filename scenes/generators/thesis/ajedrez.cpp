@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSides = 18;
 
-/// Returns the foot that all pieces have: a plinth, a torus, a step.
+/// Returns the foot that all pieces have: a plinth, a torus and a step.
 modelling::Profile foot(double radius) {
   modelling::Profile profile({radius, 0.0});
   profile.line({radius, 0.05})
@@ -48,8 +48,8 @@ void raise_points(modelling::PolygonMesh& mesh, double height, double rise) {
   }
 }
 
-/// Returns a block of the rook's battlements over some of the lathe's sides: inside, outside, top,
-/// ends.
+/// Returns a block of the rook's battlements over some of the lathe's sides: its inside, outside,
+/// top and ends.
 modelling::PolygonMesh merlon(int first, int count, double inner, double outer, double low,
                               double high) {
   modelling::PolygonMesh mesh;
@@ -73,7 +73,7 @@ modelling::PolygonMesh merlon(int first, int count, double inner, double outer, 
   return mesh;
 }
 
-/// The horse's head and neck, facing +x.
+/// Returns the field of the horse's head and neck, facing +x.
 double horse(const glm::dvec3& place) {
   const glm::dvec3 p(place.x, 1.15 * std::abs(place.y), place.z);
   double d = modelling::limb_field(p, {{0.0, 0.0, 0.22}, 0.25, {-0.09, 0.0, 0.60}, 0.19});
@@ -87,7 +87,7 @@ double horse(const glm::dvec3& place) {
                         0.03);
   d = modelling::joined(
       d, modelling::limb_field(p, {{-0.04, 0.07, 1.08}, 0.055, {-0.02, 0.085, 1.26}, 0.022}), 0.03);
-  // Eyes, and the mane down the back of the neck.
+  // The eyes, and the mane down the back of the neck.
   d = modelling::joined(d, modelling::ellipsoid_field(p, {0.09, 0.125, 1.02}, {0.04, 0.035, 0.035}),
                         0.01);
   d = modelling::joined(
@@ -97,8 +97,8 @@ double horse(const glm::dvec3& place) {
   return d;
 }
 
-/// Staunton's pieces, standing at the origin of a board whose squares have side 1, without the
-/// undersides. The knight faces +y.
+/// These functions return Staunton's pieces without their undersides, standing at the origin of a
+/// board whose squares have side 1. The knight faces +y.
 modelling::PolygonMesh chess_pawn() {
   modelling::Profile profile = foot(0.32);
   profile.curve({0.11, 0.58}, -0.07, 5);
@@ -136,7 +136,7 @@ modelling::PolygonMesh chess_knight() {
       [&](const glm::dvec3& place) { return std::max(horse(place), kTop - place.z); },
       {-0.45, -0.4, 0.2}, {0.5, 0.4, 1.4}, 0.058));
   std::erase_if(head.polygons,
-                [&](const modelling::PolygonMesh::Corners& corners) {  // its foot hides this part
+                [&](const modelling::PolygonMesh::Corners& corners) {  // the base hides this part
                   return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
                     return head.vertices[corner].z < kTop + 1e-6;
                   });

@@ -11,8 +11,8 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr int kPanels = 16;      // along an edge of each of six sides: 1,536 polygons
-constexpr int kPlatePanels = 4;  // along an edge of a plate of one color
+constexpr int kPanels = 16;      // panels along an edge of each of six sides: 1,536 polygons
+constexpr int kPlatePanels = 4;  // panels along an edge of a plate of one color
 
 /// Returns one side of a cube, inflated to the ball.
 modelling::PolygonMesh side(int axis, double direction) {
@@ -27,7 +27,7 @@ modelling::PolygonMesh side(int axis, double direction) {
       kPanels, kPanels);
 }
 
-/// Returns the panels of the plates of one color: a checkerboard.
+/// Returns the panels of all plates of one color, which form a checkerboard.
 modelling::PolygonMesh plates(const modelling::PolygonMesh& whole, std::size_t color) {
   modelling::PolygonMesh part{whole.vertices, {}};
   for (std::size_t i = 0; i < whole.polygons.size(); ++i) {
@@ -63,10 +63,10 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-// The thesis's own scene is lost. Known are its 1,536 polygons, which are "very near to each other
-// and occupy nearly all of the scene's space", with "very few free spaces" (section 5.4.2, figure
-// 5.9). So the ball fills the picture and its box. Nothing is fitted to the thesis's ray counts and
-// times for this scene.
+// The thesis's own scene is lost. The thesis states that its 1,536 polygons are "very near to each
+// other and occupy nearly all of the scene's space", with "very few free spaces" (section 5.4.2,
+// figure 5.9). So the ball fills the picture and its box. Nothing is fitted to the thesis's ray
+// counts and times for this scene.
 void register_bola_espacial(Catalogue& catalogue) {
   catalogue.add({"bola-espacial",
                  "The thesis's Bola espacial: a ball of 1,536 panels that fills its box",

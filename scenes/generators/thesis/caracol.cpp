@@ -16,8 +16,8 @@ Scene generate(const Parameters& parameters) {
   builder.add_light({120.0, -80.0, 20.0}, glm::dvec3(0.3));
   builder.set_surface(
       {.color = {1.0F, 0.72F, 0.45F}, .diffuse = 0.8F, .specular = 0.25F, .shine = 45.0F});
-  // The shell of n = 5 has 5,761 spheres; the thesis prints 5,671. The 90 at the tip are left out;
-  // the largest of them is a fiftieth of the size of the whole shell.
+  // The shell of n = 5 has 5,761 spheres; the thesis prints 5,671. The 90 spheres at the tip are
+  // left out; the largest of them is a fiftieth of the size of the whole shell.
   add_shell(builder, 180 << 5, 90);
   return std::move(builder).build();
 }

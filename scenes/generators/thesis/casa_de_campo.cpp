@@ -25,13 +25,13 @@ namespace {
 /// A slope of the roof: from an eaves corner along the eaves and up to the ridge.
 struct RoofSlope {
   glm::dvec3 corner;
-  glm::dvec3 along;  ///< the eaves, with their length; along x up points out of the roof
-  glm::dvec3 up;     ///< to the ridge, with its length
-  int tiles;         ///< along the eaves
+  glm::dvec3 along;  ///< from one end of the eaves to the other; along x up points outward
+  glm::dvec3 up;     ///< from the eaves up to the ridge
+  int tiles;         ///< number of tiles along the eaves
   int rows;
 };
 
-constexpr int kPieces = 6;  // around a tile and the channel beside it
+constexpr int kPieces = 6;  // quads around a tile and the channel beside it
 
 /// Adds a strip of quads between two lines with equal numbers of points.
 void add_strip(modelling::PolygonMesh& mesh, const std::vector<glm::dvec3>& low,
@@ -111,7 +111,7 @@ const Surface kStone = {.color = {0.66F, 0.62F, 0.56F}, .diffuse = 0.9F};
 const Surface kGlass = {
     .color = {0.25F, 0.38F, 0.50F}, .diffuse = 0.6F, .specular = 0.6F, .shine = 60.0F};
 
-/// A wall of the house: `place` takes (across, up, outward) to the scene.
+/// A wall of the house: `place` maps (across, up, outward) to the scene.
 struct Wall {
   glm::dmat4 place;
   double width;
@@ -155,7 +155,7 @@ void add_shutter(SceneBuilder& builder, const glm::dmat4& place) {
       modelling::transformed(modelling::recessed(size, opening, kThick),
                              glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, kThick)));
   modelling::PolygonMesh edges = modelling::box({0.0, 0.0, 0.0}, {size, kThick});
-  edges.polygons.resize(4);  // without back and front
+  edges.polygons.resize(4);  // removes the back and the front
   modelling::append(mesh, edges);
   const auto& [lower, upper] = opening.front();
   for (int i = 0; i < kSlats; ++i) {
@@ -207,7 +207,7 @@ void add_walls(SceneBuilder& builder) {
   add(builder, kPlaster, gables, glm::dmat4(1.0));
 }
 
-/// Removes the part under the chimney.
+/// Returns the roof without the part under the chimney.
 modelling::PolygonMesh around_chimney(modelling::PolygonMesh roof) {
   std::erase_if(roof.polygons, [&](const modelling::PolygonMesh::Corners& corners) {
     return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
@@ -219,7 +219,7 @@ modelling::PolygonMesh around_chimney(modelling::PolygonMesh roof) {
 }
 
 void add_roof(SceneBuilder& builder) {
-  // The eaves overhang the walls by half a meter, the tiles lie a hand above the gables.
+  // The eaves overhang the walls by half a meter, and the tiles lie a hand above the gables.
   const double rise = (kRidge - kWallTop) / 3.5;
   const double lift = 0.12;
   const glm::dvec3 ridge(0.0, 3.5, kRidge + lift);
@@ -270,8 +270,8 @@ void add_porch(SceneBuilder& builder) {
                       tiled_slope({{-2.25, -2.3, 2.5}, {4.5, 0.0, 0.0}, {0.0, 2.3, 0.5}, 12, 6}));
 }
 
-/// Adds the house: 10 wide (x from -5), 7 deep (y from 0, the front), the ridge 7.6 high; with a
-/// porch in front of its door on [-2, 2] x [-2, 0].
+/// Adds the house: 10 wide (x from -5), 7 deep (y from 0, the front), with the ridge 7.6 high and a
+/// porch in front of the door on [-2, 2] x [-2, 0].
 void add_country_house(SceneBuilder& builder) {
   add_walls(builder);
   add_roof(builder);
@@ -298,7 +298,7 @@ void add_ground(SceneBuilder& builder) {
   }
 }
 
-/// Pickets with rails behind them along y = -7.6, open where the path goes through.
+/// Returns pickets with rails behind them along y = -7.6, open where the path goes through.
 modelling::PolygonMesh fence() {
   constexpr double kY = -7.6;
   modelling::PolygonMesh picket = modelling::extruded(
@@ -332,7 +332,7 @@ modelling::Field crown(const glm::dvec3& center, double radius, std::uint64_t se
   std::vector<Clump> clumps = {{center, radius}};
   Random random(seed);
   while (clumps.size() < 26) {
-    // One by one: compilers evaluate arguments in different orders.
+    // The numbers are drawn one by one, because compilers evaluate arguments in different orders.
     const double z = random.uniform(-0.8, 1.0);
     const double y = random.uniform(-1.0, 1.0);
     const glm::dvec3 way(random.uniform(-1.0, 1.0), y, z);
@@ -354,7 +354,7 @@ modelling::Field crown(const glm::dvec3& center, double radius, std::uint64_t se
 
 struct Tree {
   glm::dvec2 place;
-  double height;  ///< of the crown's center
+  double height;  ///< height of the crown's center
   double radius;
 };
 constexpr std::array<Tree, 3> kTrees = {

@@ -18,13 +18,13 @@ namespace {
 
 /// A dolphin's pose; radians over its length of 1.
 struct DolphinPose {
-  double arch = 0.0;  ///< back bent: head and tail down
-  double turn = 0.0;  ///< head and tail to its left
+  double arch = 0.0;  ///< bends the back, with head and tail down
+  double turn = 0.0;  ///< bends head and tail to the dolphin's left
 };
 
-/// A bottlenose dolphin, 1 long from beak (x = 0.5) to fluke (x = -0.5) before it bends, back to
-/// +z, of `triangles` triangles: body, dorsal fin, two flippers, two flukes. `belly` marks those
-/// that are pale.
+/// A bottlenose dolphin of `triangles` triangles: body, dorsal fin, two flippers, two flukes.
+/// Before it bends, it is 1 long from beak (x = 0.5) to fluke (x = -0.5), with its back toward +z.
+/// `belly` marks the pale triangles.
 struct Dolphin {
   modelling::PolygonMesh mesh;
   std::vector<bool> belly;
@@ -71,15 +71,15 @@ modelling::PolygonMesh body() {
   return modelling::welded(mesh);
 }
 
-/// A cross-section of a fin: its position on the spine, its extent before and behind that point
-/// along x, and its thickness.
+/// A cross-section of a fin: its position on the spine, its extent in front of and behind that
+/// point along x, and its thickness.
 struct Blade {
   glm::dvec3 spine;
   double front, back, thickness;
 };
 
-/// Returns a fin from its root to the tip, a lens of six corners at each station; `across` is the
-/// direction of its thickness.
+/// Returns a fin from its root to its tip, with a lens of six corners as each cross-section.
+/// `across` is the direction of its thickness.
 modelling::PolygonMesh fin(std::span<const Blade> blades, const glm::dvec3& tip,
                            const glm::dvec3& across) {
   constexpr std::uint32_t kCorners = 6;
@@ -178,7 +178,7 @@ constexpr double kLength = 0.5;
 
 struct Swimmer {
   glm::dvec3 place;
-  double heading, climb, roll;  ///< degrees: about z, then the head up, then about its own length
+  double heading, climb, roll;  ///< degrees: about z, then head up, then about the long axis
   DolphinPose pose;
 };
 
@@ -221,9 +221,9 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-// The thesis's own scene is lost. Known are its 1,692 polygons, three dolphins in "three clearly
-// separate places" (section 5.3.1). Nothing is fitted to the thesis's counts and times for this
-// scene.
+// The thesis's own scene is lost. The thesis describes 1,692 polygons: three dolphins in "three
+// clearly separate places" (section 5.3.1). Nothing is fitted to the thesis's counts and times for
+// this scene.
 void register_delfines(Catalogue& catalogue) {
   catalogue.add({"delfines",
                  "The thesis's Delfines: three dolphins in three clearly separate places",

@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kHalfSize = 10.0;  // the spheres fill the cube [-10, 10]^3
 
-/// The balls, listed by the grid cell of their center, so that millions can be placed.
+/// The balls, listed by the grid cells of their centers, so that millions of balls can be placed.
 class BallGrid {
  public:
-  /// `cells` on each axis.
+  /// `cells`: the number of cells along each axis.
   explicit BallGrid(std::int64_t cells)
       : cells_(cells),
         width_(2.0 * kHalfSize / static_cast<double>(cells)),
@@ -32,9 +32,9 @@ class BallGrid {
     largest_ = std::max(largest_, ball.radius);
   }
 
-  /// Returns the free room around a point: its distance to the nearest ball, at most the cube's
-  /// edge. If that is at most `wanted`, any distance up to `wanted` may be returned. Searches the
-  /// cells shell by shell, skipping those too far away to contain a nearer ball.
+  /// Returns the free room around a point: its distance from the nearest ball, at most the cube's
+  /// edge. If this distance is at most `wanted`, any number up to `wanted` may be returned.
+  /// Searches the cells shell by shell, skipping cells too far away to contain a nearer ball.
   double gap(const glm::dvec3& point, double wanted) const {
     const Cell middle = cell(point);
     double least = 2.0 * kHalfSize;
@@ -64,8 +64,8 @@ class BallGrid {
     return static_cast<std::size_t>((at[2] * cells_ + at[1]) * cells_ + at[0]);
   }
 
-  /// Returns whether the layer of cells is in the grid and close enough for a ball nearer than
-  /// `least`, with a slight tolerance for rounding.
+  /// Returns whether the layer of cells is in the grid and close enough to contain a ball nearer
+  /// than `least`, with a slight tolerance for rounding.
   bool may_hold_nearer(double coordinate, std::int64_t layer, double least) const {
     if (layer < 0 || layer >= cells_) return false;
     const double low = static_cast<double>(layer) * width_ - kHalfSize;
@@ -98,8 +98,8 @@ class BallGrid {
   std::int64_t cells_;
   double width_;
   double largest_ = 0.0;
-  std::vector<std::uint32_t> first_;  ///< of each cell
-  std::vector<std::uint32_t> next_;   ///< of each ball, in its cell
+  std::vector<std::uint32_t> first_;  ///< first ball of each cell
+  std::vector<std::uint32_t> next_;   ///< next ball in the same cell, for each ball
   std::vector<Ball> balls_;
 };
 
@@ -127,7 +127,7 @@ Scene generate(const Parameters& parameters) {
 std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed) {
   Random random(seed);
   constexpr int kCandidates = 16;
-  std::int64_t cells = 1;  // on each axis of a grid with one cell per ball
+  std::int64_t cells = 1;  // along each axis of a grid with at least one cell per ball
   while (cells * cells * cells < count) ++cells;
   const double spacing = 2.0 * kHalfSize / static_cast<double>(cells);
   BallGrid grid(cells);

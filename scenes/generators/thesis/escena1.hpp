@@ -17,7 +17,7 @@ struct Ball {
 };
 
 /// Returns balls of random sizes in the cube [-10, 10]^3, spread evenly by best-candidate sampling
-/// (Mitchell 1991): each ball takes the roomiest of several random positions and shrinks if it does
+/// (Mitchell 1991): each ball gets the roomiest of several random positions and shrinks if it does
 /// not fit.
 std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed);
 

@@ -18,8 +18,8 @@ Scene generate(const Parameters& parameters) {
   builder.add_light({15.0, -30.0, 30.0});
   builder.add_light({-30.0, -20.0, 10.0});
 
-  // The wall alone determines the cube around the scene: 40 on each side, with the flake, of radius
-  // 0.9, near its center. At level 6, a cell of the thesis's octree is 1.25 wide.
+  // The wall alone determines the cube around the scene. The cube has sides of 40, with the flake,
+  // of radius 0.9, near its center. At level 6, a cell of the thesis's octree is 1.25 wide.
   builder.set_surface({.color = {0.55F, 0.75F, 0.45F}, .diffuse = 0.8F});
   const std::array<glm::dvec3, 4> wall = {
       {{-20.0, 10.0, -20.0}, {20.0, 10.0, -20.0}, {20.0, 10.0, 20.0}, {-20.0, 10.0, 20.0}}};
@@ -35,7 +35,7 @@ Scene generate(const Parameters& parameters) {
 void register_escena2(Catalogue& catalogue) {
   catalogue.add(
       {"escena2",
-       "The thesis's Escena 2: a large polygon at the back and a sphereflake of 91 spheres, tiny "
+       "The thesis's Escena 2: a large polygon at the back, and a tiny sphereflake of 91 spheres "
        "in the middle of a huge volume",
        {},
        generate});

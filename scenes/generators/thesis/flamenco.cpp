@@ -16,10 +16,10 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// The plumage or skin at a place of the bird.
+/// The plumage or skin at a point of the bird.
 enum class Plumage : std::uint8_t { kPink, kWing, kFlightFeathers, kLeg, kBill, kBillTip };
 
-/// A chain of limbs has a radius at each joint.
+/// A joint of a chain of limbs, with the chain's radius at the joint.
 struct Joint {
   glm::dvec3 place;
   double radius;
@@ -35,7 +35,7 @@ double chain(const glm::dvec3& place, std::span<const Joint> joints) {
   return d;
 }
 
-/// Does the same along a spline through the joints.
+/// Returns the joints of a chain along a spline through the given joints.
 std::vector<Joint> rounded(std::span<const Joint> joints) {
   constexpr int kSteps = 4;
   std::vector<glm::dvec3> knots;
@@ -76,7 +76,7 @@ double neck_and_head(const glm::dvec3& p) {
       d, modelling::ellipsoid_field(p, {0.39, 0.0, 1.705}, {0.085, 0.056, 0.060}), 0.03);
 }
 
-/// The bill, bent down in the middle.
+/// Returns the field of the bill, bent down in the middle.
 double bill(const glm::dvec3& p) {
   const std::array<Joint, 4> joints = {{{{0.44, 0.0, 1.70}, 0.042},
                                         {{0.53, 0.0, 1.675}, 0.034},
@@ -86,7 +86,7 @@ double bill(const glm::dvec3& p) {
 }
 
 double wings(const glm::dvec3& place) {
-  // Turned so that the wing slopes to the tail; rows of feathers overlap like tiles.
+  // The wing is turned to slope toward the tail; its rows of feathers overlap like tiles.
   const glm::dvec3 p(place.x + 0.07, std::abs(place.y), place.z - 0.90);
   const double along = p.x * 0.97 + p.z * 0.24;
   const double across = p.z * 0.97 - p.x * 0.24;
@@ -97,7 +97,7 @@ double wings(const glm::dvec3& place) {
          step;
 }
 
-/// Three toes in front and a short one behind, from an ankle.
+/// Returns the field of three toes in front of an ankle and a short one behind it.
 double toes(const glm::dvec3& p, const glm::dvec3& ankle, const glm::dvec3& forward) {
   const glm::dvec3 aside(-forward.y, forward.x, 0.0);
   double d = 1e9;
@@ -138,7 +138,8 @@ double legs(const glm::dvec3& p) {
       0.02);
 }
 
-/// A flamingo, 1.75 high, that stands at the origin on its left leg and faces +x.
+/// Returns the field of a flamingo, 1.75 high, that stands at the origin on its left leg and faces
+/// +x.
 double flamingo_field(const glm::dvec3& p) {
   double d = modelling::joined(trunk(p), neck_and_head(p), 0.08);
   d = modelling::joined(d, wings(p), 0.012);
@@ -217,11 +218,10 @@ Scene generate(const Parameters& parameters) {
 }  // namespace
 
 void register_flamenco(Catalogue& catalogue) {
-  catalogue.add(
-      {"flamenco",
-       "The thesis's Flamenco: a flamingo of 12,874 polygons on one leg, empty space around it",
-       {},
-       generate});
+  catalogue.add({"flamenco",
+                 "The thesis's Flamenco: a flamingo of 12,874 polygons on one leg in empty space",
+                 {},
+                 generate});
 }
 
 }  // namespace beambench::scenes::generators

@@ -62,7 +62,7 @@ double tail(const glm::dvec3& place) {
   return d;
 }
 
-/// One arm waves, the other reaches down to the knee.
+/// Returns the field of the arms: one waves, the other reaches down to the knee.
 double arms(const glm::dvec3& place) {
   double d = modelling::limb_field(place, {{-0.30, 0.0, 0.84}, 0.12, {-0.80, -0.12, 0.98}, 0.10});
   d = modelling::joined(
@@ -76,7 +76,7 @@ double arms(const glm::dvec3& place) {
       0.05);
 }
 
-/// White gloves of a thumb and three fingers.
+/// Returns the field of the white gloves, each with a thumb and three fingers.
 double gloves(const glm::dvec3& place) {
   constexpr double kFinger = 0.062;
   double d = modelling::ellipsoid_field(place, {-1.00, -0.22, 1.40}, {0.15, 0.12, 0.15});
@@ -126,7 +126,7 @@ double fur(const glm::dvec3& place) {
 double cat(const glm::dvec3& place) {
   const double d =
       modelling::joined(modelling::joined(fur(place), gloves(place), 0.02), feet(place), 0.03);
-  return std::max(d, -place.z);  // it sits
+  return std::max(d, -place.z);  // the cat sits on the floor
 }
 
 constexpr double kSquint = 16.0;  // degrees that each eye turns toward the nose
@@ -136,15 +136,15 @@ constexpr glm::dvec3 kNoseSize = {0.085, 0.06, 0.058};
 constexpr glm::dvec3 kTongue = {0.0, -0.47, 1.07};
 constexpr glm::dvec3 kTongueSize = {0.10, 0.17, 0.035};
 
-/// Rotates an eye that looks straight ahead to the direction of the cat's left eye (side 1) or
-/// right one.
+/// Returns the rotation of an eye that looks straight ahead to the direction of the cat's left eye
+/// (side 1) or right eye.
 glm::dmat4 eye_turn(double side) {
   const glm::dvec3 center = kEye * glm::dvec3(side, 1.0, 1.0);
   return glm::translate(glm::dmat4(1.0), center) * modelling::rotation(2, -kSquint * side) *
          glm::translate(glm::dmat4(1.0), -center);
 }
 
-/// Eyes, nose and tongue, which hide the fur behind them.
+/// Returns the field of eyes, nose and tongue, which hide the fur behind them.
 double features(const glm::dvec3& place) {
   const glm::dvec3 straight(glm::inverse(eye_turn(1.0)) * glm::dvec4(folded(place), 1.0));
   return std::min({modelling::ellipsoid_field(straight, kEye, kEyeSize),
@@ -159,7 +159,7 @@ bool is_stripe(const glm::dvec3& place, const glm::dvec3& p) {
     const double along = p.x + 0.9 * p.z;
     return p.x > 0.45 && std::fmod(along, 0.36) < 0.14;
   }
-  if (p.z > 1.80 && place.y < 0.3) {  // three on the forehead
+  if (p.z > 1.80 && place.y < 0.3) {  // three stripes on the forehead
     return p.x < 0.028 || (p.x > 0.09 && p.x < 0.145 && p.z > 1.84);
   }
   const bool on_cheek = p.z > 1.16 && p.z < 1.5 && p.x > 0.50 && place.y > -0.34;
@@ -266,8 +266,8 @@ void add_whiskers(SceneBuilder& builder) {
   }
 }
 
-/// Adds a sitting cartoon cat, 2.2 high, its seat and feet on z = 0, facing -y: its fur, then eyes,
-/// nose, tongue and whiskers, each without the polygons inside the head.
+/// Adds a sitting cartoon cat, 2.2 high, facing -y, with its seat and feet on z = 0. It consists of
+/// the fur, then eyes, nose, tongue and whiskers, each without the polygons inside the head.
 void add_cartoon_cat(SceneBuilder& builder) {
   add_fur(builder);
   add_eyes(builder);

@@ -15,7 +15,7 @@ namespace beambench::scenes::generators {
 namespace {
 
 constexpr std::size_t kPolygons = 34110;
-constexpr double kCell = 0.0458;  // of the upholstery
+constexpr double kCell = 0.0458;  // cell size of the upholstery
 
 constexpr modelling::Rectangle kRug = {{0.80, 2.70}, {3.40, 4.55}};
 constexpr glm::dvec3 kCoffeeTable = {1.95, 3.72, 0.012};  // on the rug
@@ -27,7 +27,7 @@ constexpr glm::dvec3 kSofaAt = {1.90, 5.22, 0.0};
 constexpr glm::dvec3 kArmchairAt = {3.42, 4.15, 0.0};
 constexpr double kArmchairTurn = -72.0;
 
-/// Maps (across, up, inward) to the walls with pictures.
+/// Return transforms from (across, up, inward) to places on the walls with pictures.
 glm::dmat4 hung_at_window_wall(double x, double z) {
   return glm::translate(glm::dmat4(1.0), glm::dvec3(x, kRoom.y, z)) * modelling::rotation(0, 90.0);
 }
@@ -69,7 +69,7 @@ void add_decoration(SceneBuilder& builder) {
   add_potted_plant(builder, {4.70, 5.00, 0.0});
 }
 
-/// Removes the parts that are inside the sofa or lie against it.
+/// Returns the cushion without the parts that are inside the sofa or lie against it.
 modelling::PolygonMesh not_leaning(modelling::PolygonMesh cushion) {
   const modelling::Field sofa = [](const glm::dvec3& p) {
     return settee_field(p - kSofaAt, kSofa);
@@ -98,7 +98,7 @@ modelling::PolygonMesh scatter_cushions() {
   return cushions;
 }
 
-/// Removes the back of the sofa, which is against the wall.
+/// Returns the sofa without its back, which is against the wall.
 modelling::PolygonMesh without_back(modelling::PolygonMesh sofa) {
   modelling::PolygonMesh seen;
   for (std::size_t i = 0; i < sofa.size(); ++i) {

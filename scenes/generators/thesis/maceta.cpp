@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kPolygons = 1284;
 constexpr int kLeaves = 30;
-constexpr double kTop = 0.6;  // of the stem, at the last leaf
+constexpr double kTop = 0.6;  // height of the stem at the last leaf
 
-/// Returns the pot without its unseen bottom: wall, rim, and inside down to the soil.
+/// Returns the pot without its hidden bottom: the wall, the rim, and the inside down to the soil.
 modelling::PolygonMesh pot() {
   const std::vector<glm::dvec2> profile = {{0.15, 0.00}, {0.20, 0.23}, {0.23, 0.23},
                                            {0.23, 0.30}, {0.21, 0.30}, {0.20, 0.26}};
@@ -36,9 +36,9 @@ modelling::PolygonMesh stem() {
   return modelling::tube(path, radii, 6);
 }
 
-/// Returns leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each a golden angle
-/// farther around than the one below, the lower ones long and drooping, the upper ones steep and
-/// short.
+/// Returns leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each leaf is a golden
+/// angle farther around than the one below; lower leaves are long and drooping, upper leaves steep
+/// and short.
 modelling::PolygonMesh leaves() {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   modelling::PolygonMesh mesh;
@@ -82,9 +82,9 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-// The thesis's own scene is lost. Known are its 1,284 polygons, a potted plant whose objects are
-// "strongly distributed over the whole scene" (section 5.3.1). Nothing is fitted to the thesis's
-// counts and times for this scene.
+// The thesis's own scene is lost. The thesis describes 1,284 polygons: a potted plant whose objects
+// are "strongly distributed over the whole scene" (section 5.3.1). Nothing is fitted to the
+// thesis's counts and times for this scene.
 void register_maceta(Catalogue& catalogue) {
   catalogue.add(
       {"maceta", "The thesis's Maceta: a potted plant spread over the whole volume", {}, generate});

@@ -23,7 +23,7 @@ constexpr Surface kGray{
     .color = {0.30F, 0.33F, 0.37F}, .diffuse = 0.7F, .specular = 0.4F, .shine = 20.0F};
 constexpr Surface kDark{.color = {0.10F, 0.10F, 0.11F}, .diffuse = 0.8F};
 
-/// The missile stands on z = 0 with its tip at 10; every part is a lathe with its own color.
+/// A part of the missile, which stands on z = 0 with its tip at 10: a lathe with its own color.
 struct Part {
   Surface surface;
   std::vector<glm::dvec2> profile;
@@ -46,7 +46,7 @@ std::vector<Part> hull() {
             {0.0, 10.0}}}};
 }
 
-/// Returns a fin in the plane y = 0, its root on the hull at x = 0.7 and sunk in slightly.
+/// Returns a fin in the plane y = 0, with its root on the hull at x = 0.7, slightly sunk in.
 modelling::PolygonMesh fin(const std::vector<glm::dvec2>& outline, double thickness) {
   modelling::PolygonMesh mesh = modelling::extruded(modelling::flat_polygon(outline), thickness);
   std::erase_if(mesh.polygons,
@@ -62,7 +62,7 @@ modelling::PolygonMesh fin(const std::vector<glm::dvec2>& outline, double thickn
                            glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.5 * thickness)));
 }
 
-/// Returns four copies around the hull, an eighth of a turn from the axes.
+/// Returns four copies of a fin around the hull, an eighth of a turn from the axes.
 modelling::PolygonMesh four(const modelling::PolygonMesh& one) {
   modelling::PolygonMesh mesh;
   for (int i = 0; i < 4; ++i)

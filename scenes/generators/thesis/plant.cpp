@@ -7,7 +7,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// The width of a leaf relative to its full width, `s` of the way to its tip.
+/// Returns the width of a leaf, relative to its full width, at the share `s` of its length.
 double outline(double s) { return std::sqrt(s + 0.06) * (1.0 - s * s) * 1.32; }
 
 }  // namespace

@@ -17,8 +17,8 @@ struct ArchingLeaf {
   double width;
 };
 
-/// Returns the leaf as `pieces` pairs of quads left and right of its midrib, folded like a gutter;
-/// the last pair, at the tip, are triangles: 2 * pieces polygons.
+/// Returns the leaf as `pieces` pairs of quads left and right of its midrib, folded like a gutter:
+/// 2 * pieces polygons. The last pair, at the tip, are triangles.
 modelling::PolygonMesh arching_leaf(const ArchingLeaf& leaf, int pieces);
 
 }  // namespace beambench::scenes::generators

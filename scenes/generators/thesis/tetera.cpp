@@ -32,7 +32,7 @@ Scene generate(const Parameters& parameters) {
 void register_tetera(Catalogue& catalogue) {
   catalogue.add(
       {"tetera",
-       "The thesis's Tetera: Newell's teapot of 992 triangles over a box of 12, much empty space",
+       "The thesis's Tetera: Newell's teapot of 992 triangles over a box of 12, in empty space",
        {},
        generate});
 }

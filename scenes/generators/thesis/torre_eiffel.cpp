@@ -22,7 +22,7 @@ constexpr double kFirstFloor = 57.0;
 constexpr double kSecondFloor = 115.0;
 constexpr double kThirdFloor = 276.0;
 constexpr double kFloorDepth = 4.5;
-constexpr double kClear = 0.5;  // between a floor and the nearest crossbar's axis
+constexpr double kClear = 0.5;  // distance from a floor to the nearest crossbar's axis
 
 /// The distances of a leg's outer and inner posts from the center, on both axes.
 struct Section {
@@ -42,7 +42,8 @@ std::vector<Section> panels(const Section& from, const Section& to, int count) {
   return sections;
 }
 
-/// The shaft narrows along its own curve; its panels get lower as it gets narrower.
+/// Returns the shaft's sections. The shaft narrows along its own curve, and its panels become
+/// lower.
 std::vector<Section> shaft_sections() {
   constexpr int kPanels = 28;
   constexpr double kFoot = kSecondFloor + kClear;
@@ -74,7 +75,7 @@ double inner(const Section& section) { return section.inner; }
 double minus_outer(const Section& section) { return -section.outer; }
 double minus_inner(const Section& section) { return -section.inner; }
 
-/// Returns a post along the places, a meter longer at both ends to reach into floors and
+/// Returns a post along the places that is a meter longer at each end, to reach into floors and
 /// foundations.
 modelling::PolygonMesh beam(Posts places, double thickness) {
   const std::size_t last = places.size() - 1;
@@ -85,7 +86,7 @@ modelling::PolygonMesh beam(Posts places, double thickness) {
   return modelling::sweep(square, places, scales, {1.0, 0.0, 0.0}, modelling::Caps::kNone);
 }
 
-/// Returns four copies, in the corners or on the sides of the tower.
+/// Returns four copies of a mesh, in the corners or on the sides of the tower.
 modelling::PolygonMesh four_times(const modelling::PolygonMesh& one) {
   modelling::PolygonMesh mesh;
   for (int i = 0; i < 4; ++i)
@@ -124,8 +125,8 @@ modelling::PolygonMesh leg(const std::vector<Section>& sections, double thicknes
   return mesh;
 }
 
-/// Returns the shaft's side y < 0 with its left corner post: bracing between the outer and the
-/// inner posts.
+/// Returns the shaft's side y < 0 with its left corner post, and with bracing between the outer and
+/// the inner posts.
 modelling::PolygonMesh shaft_side() {
   const std::vector<Section> sections = shaft_sections();
   const glm::dvec3 outward(0.0, -1.0, 0.0);
@@ -168,7 +169,7 @@ modelling::PolygonMesh arch() {
   return mesh;
 }
 
-/// Returns posts and two rails on the side y < 0 of a floor.
+/// Returns the posts and two rails of a gallery on the side y < 0 of a floor.
 modelling::PolygonMesh gallery_side(double height, double half, int posts, double rise) {
   const glm::dvec3 outward(0.0, -1.0, 0.0);
   modelling::PolygonMesh mesh;
@@ -209,7 +210,7 @@ modelling::PolygonMesh tower_floors() {
   return mesh;
 }
 
-/// Returns posts and rails around the floors.
+/// Returns the galleries around the floors: posts and rails.
 modelling::PolygonMesh tower_galleries() {
   modelling::PolygonMesh side = gallery_side(kFirstFloor, 37.4, 36, 3.2);
   modelling::append(side, gallery_side(kSecondFloor, 21.0, 22, 2.8));
@@ -217,7 +218,7 @@ modelling::PolygonMesh tower_galleries() {
   return four_times(side);
 }
 
-/// Returns the lantern above the third floor, and its mast up to 324 meters.
+/// Returns the lantern above the third floor and its mast, which reaches 324 meters.
 modelling::PolygonMesh tower_top() {
   const std::vector<glm::dvec2> lantern = {{4.6, 276.0}, {4.6, 282.0}, {5.6, 282.6}, {5.6, 284.0},
                                            {3.4, 285.0}, {3.4, 291.0}, {3.9, 291.4}, {3.6, 293.2},

@@ -55,7 +55,7 @@ std::vector<Book> row_of_books(Random& random, double length) {
   }
 }
 
-/// Returns the spine's outline from left to right, as (x, y). It bulges.
+/// Returns the outline of a spine, which bulges, from left to right as (x, y).
 std::vector<glm::dvec2> spine(const Book& book) {
   constexpr int kPieces = 4;
   std::vector<glm::dvec2> line;
@@ -67,7 +67,7 @@ std::vector<glm::dvec2> spine(const Book& book) {
   return line;
 }
 
-/// Returns whether a book protrudes in front of or above its neighbor, if it has one.
+/// Returns whether a book protrudes in front of or above its neighbor; true without a neighbor.
 bool stands_out(const Book& book, const Book* neighbor) {
   constexpr double kSeen = 0.012;
   return neighbor == nullptr || book.height > neighbor->height + kSeen ||

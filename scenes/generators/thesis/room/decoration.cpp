@@ -21,7 +21,7 @@ namespace beambench::scenes::generators {
 namespace {
 
 constexpr double kFrame = 0.055;
-constexpr double kCanvas = 0.010;  // in front of the wall
+constexpr double kCanvas = 0.010;  // distance from the wall
 
 Surface paint(const glm::vec3& color) { return {.color = color, .diffuse = 0.95F}; }
 
@@ -173,8 +173,8 @@ void add_potted_plant(SceneBuilder& builder, const glm::dvec3& place) {
       {0.160, kSoil}, {0.06, kSoil + 0.015}, {0.0, kSoil + 0.018}};
   plant.smooth({.color = {0.25F, 0.16F, 0.10F}, .diffuse = 0.9F}, modelling::lathe(soil, 24));
 
-  // A golden angle from leaf to leaf, the outer ones drooping (as in maceta); none intersects a
-  // wall.
+  // Leaves are a golden angle apart, and the outer leaves droop (as in maceta); no leaf intersects
+  // a wall.
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   Random random(5);
   modelling::PolygonMesh leaves;

@@ -21,7 +21,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-constexpr double kReveal = 0.22;  // how deep the window's opening is
+constexpr double kReveal = 0.22;  // depth of the window's opening
 constexpr double kDoorReveal = 0.06;
 constexpr modelling::Rectangle kDoor = {{1.25, 0.0}, {2.10, 2.08}};  // on the wall x = kRoom.x
 
@@ -32,7 +32,7 @@ const Surface kPaintedWood = {
 const Surface kBrass = {
     .color = {0.80F, 0.63F, 0.28F}, .diffuse = 0.8F, .specular = 0.7F, .shine = 50.0F};
 
-/// Maps (across, up, inward) of a wall to the room.
+/// Returns the transform from a wall's (across, up, inward) to the room.
 glm::dmat4 wall(const glm::dvec3& corner, const glm::dvec3& across) {
   const glm::dvec3 up(0.0, 0.0, 1.0);
   return {glm::dvec4(across, 0.0), glm::dvec4(up, 0.0), glm::dvec4(glm::cross(across, up), 0.0),
@@ -50,7 +50,7 @@ bool within(const modelling::Rectangle& inner, const modelling::Rectangle& outer
          outer.lower.y <= inner.lower.y && inner.upper.y <= outer.upper.y;
 }
 
-/// Oak boards along y, their joints staggered, in four shades.
+/// Adds oak boards along y in four shades, with staggered joints.
 void add_floor(SceneBuilder& builder, std::span<const modelling::Rectangle> covered) {
   constexpr int kRows = 40;
   constexpr std::array<glm::vec3, 4> kShades = {
@@ -103,7 +103,7 @@ void add_skirting_and_cornice(SceneBuilder& builder) {
   const std::vector<glm::dvec2> skirting = {
       {0.0, 0.12}, {0.010, 0.12}, {0.018, 0.10}, {0.018, 0.0}};
   room.flat(kPaintedWood, modelling::without_side(modelling::molding(kRoom, skirting), 1));
-  // On the door's wall it stops at both sides of the architrave.
+  // On the door's wall, the skirting stops at both sides of the architrave.
   const std::array<modelling::Rectangle, 2> pieces = {
       {{{0.018, 0.0}, {kDoor.lower.x - kArchitrave, 0.12}},
        {{kDoor.upper.x + kArchitrave, 0.0}, {kRoom.y - 0.018, 0.12}}}};
@@ -191,7 +191,7 @@ void add_door(SceneBuilder& builder) {
   PlacedPiece leaf(builder, moved(door_wall(), kDoor.lower, -kDoorReveal));
   leaf.flat(kPaintedWood, modelling::recessed(size, panels, 0.025));
   leaf.flat(kPaintedWood, modelling::openings_filled(panels, 0.025));
-  for (const modelling::Rectangle& panel : panels) {  // raised in its middle
+  for (const modelling::Rectangle& panel : panels) {  // each panel is raised in its middle
     const std::vector<glm::dvec2> raised = {{0.03, -0.025}, {0.05, -0.008}};
     modelling::PolygonMesh field = modelling::molding(panel.upper - panel.lower, raised);
     field.polygons.push_back({4, 5, 6, 7});

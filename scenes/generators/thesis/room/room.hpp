@@ -43,7 +43,7 @@ class PlacedPiece {
 /// Returns the mesh without the polygons below a height, which the piece below hides.
 modelling::PolygonMesh above(modelling::PolygonMesh mesh, double z);
 
-inline constexpr double kDiningTop = 0.75;  ///< height of the table's top
+inline constexpr double kDiningTop = 0.75;  ///< height of the dining table's top
 inline constexpr double kCoffeeTop = 0.43;
 
 /// Adds a round table of radius 0.56 on a turned column with four feet.
@@ -61,7 +61,7 @@ struct Settee {
 };
 double settee_field(const glm::dvec3& place, const Settee& settee);
 
-/// Its surface in triangles, without the parts that face the floor.
+/// Returns the settee's surface in triangles, without the parts that face the floor.
 modelling::PolygonMesh settee(const Settee& settee, double cell);
 /// Returns four turned feet.
 modelling::PolygonMesh settee_feet(const Settee& settee);
@@ -70,12 +70,12 @@ modelling::PolygonMesh settee_feet(const Settee& settee);
 /// corners.
 modelling::PolygonMesh scatter_cushion(double half, double height, int steps);
 
-/// Adds a woven rug over a rectangle of the floor, a quad for each knot of its pattern, fringed
-/// left and right.
+/// Adds a woven rug over a rectangle of the floor, with a quad for each knot of its pattern and
+/// fringes left and right.
 void add_rug(SceneBuilder& builder, const modelling::Rectangle& place);
 
-/// Two curtains on a rod in the plane y = `y` before the window from `window.lower` to
-/// `window.upper` (x, z), gathered to its sides.
+/// Adds two curtains on a rod in the plane y = `y`, gathered to the sides of the window from
+/// `window.lower` to `window.upper` (x, z).
 void add_curtains(SceneBuilder& builder, const modelling::Rectangle& window, double y);
 
 inline constexpr glm::dvec3 kBookshelf = {1.24, 0.32, 2.12};  ///< width, depth, height
@@ -84,24 +84,25 @@ inline constexpr glm::dvec3 kBookshelf = {1.24, 0.32, 2.12};  ///< width, depth,
 /// against a wall, facing -y.
 void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place);
 
-/// Adds a closed book that lies at the origin, its spine to -y, of `size` (along the spine, across,
-/// thick).
+/// Adds a closed book that lies at the origin with its spine toward -y. `size` is its extent along
+/// the spine, its extent across, and its thickness.
 void add_lying_book(SceneBuilder& builder, const glm::dmat4& place, const glm::dvec3& size,
                     const glm::vec3& color);
 
-/// Adds a round teapot, 0.17 high, its spout to +x.
+/// Adds a round teapot, 0.17 high, with its spout toward +x.
 void add_china_teapot(SceneBuilder& builder, const glm::dmat4& place);
-/// Adds a cup with tea on its saucer, its handle to +x.
+/// Adds a cup of tea on its saucer, with its handle toward +x.
 void add_cup(SceneBuilder& builder, const glm::dmat4& place);
 /// Adds a bowl of radius 0.17 with apples, oranges and a banana.
 void add_fruit_bowl(SceneBuilder& builder, const glm::dmat4& place);
 /// Adds a vase with daisies, about 0.5 high.
 void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place);
 
-/// Adds a framed picture on the wall, the plane z = 0 of `place`, with its lower left outer corner
-/// at the origin. This one, 0.62 x 0.62, shows Sierpinski's triangle, like `stetra` in space.
+/// Adds a framed picture, 0.62 x 0.62, of Sierpinski's triangle, the planar counterpart of
+/// `stetra`. It hangs on the wall, the plane z = 0 of `place`, with its lower left outer corner at
+/// the origin.
 void add_triangle_picture(SceneBuilder& builder, const glm::dmat4& place);
-/// Adds a picture, 0.8 x 0.6, of a sailing boat under the sun.
+/// Adds a picture of a sailing boat under the sun, 0.8 x 0.6, hung in the same way.
 void add_boat_picture(SceneBuilder& builder, const glm::dmat4& place);
 /// Adds a clock of radius 0.17 around the origin of `place`, at ten past ten.
 void add_clock(SceneBuilder& builder, const glm::dmat4& place);

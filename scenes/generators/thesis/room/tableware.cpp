@@ -75,7 +75,7 @@ modelling::PolygonMesh banana() {
   return modelling::tube(path, radii, 10, modelling::Caps::kBoth);
 }
 
-/// Adds a daisy facing +z: petals around a dome.
+/// Adds a daisy that faces +z: petals around a dome.
 void add_daisy(SceneBuilder& builder, const glm::dmat4& place, const glm::vec3& color) {
   constexpr int kPetals = 10;
   modelling::PolygonMesh petals;

@@ -20,13 +20,13 @@ namespace {
 constexpr double kBottom = 0.11;
 constexpr double kArm = 0.125;  // half an arm's width
 
-/// A box with round edges.
+/// Returns the field of a box with round edges.
 double rounded_box_field(const glm::dvec3& off, const glm::dvec3& half, double radius) {
   const glm::dvec3 q = glm::abs(off) - (half - radius);
   return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) - radius;
 }
 
-/// A cushion: a rounded box, thicker in its middle along `axis`.
+/// Returns the field of a cushion: a rounded box, thicker in its middle along `axis`.
 double cushion_field(const glm::dvec3& off, const glm::dvec3& half, int axis) {
   constexpr double kBulge = 0.035;
   glm::dvec3 share = off / half;
@@ -51,7 +51,7 @@ double cushions_field(const glm::dvec3& p, const Settee& settee) {
                                   static_cast<double>(settee.places - 1));
   const double x = p.x + 0.5 * inner - width * (place + 0.5);
   const double seat = cushion_field({x, p.y + 0.09, p.z - 0.41}, {0.5 * width, 0.40, 0.085}, 2);
-  // The back ones lean.
+  // The back cushions lean.
   const double y = p.y - 0.20 - 0.16 * (p.z - 0.68);
   const double back = cushion_field({x, y, p.z - 0.67}, {0.5 * width, 0.10, 0.22}, 1);
   return std::min(seat, back);
@@ -65,7 +65,8 @@ enum Yarn : std::size_t { kRed, kNavy, kCream, kGold, kYarns };
 constexpr std::array<glm::vec3, kYarns> kYarnColors = {
     {{0.62F, 0.16F, 0.14F}, {0.14F, 0.20F, 0.38F}, {0.90F, 0.83F, 0.68F}, {0.80F, 0.58F, 0.24F}}};
 
-/// Returns borders around a red ground with a stepped medallion in its middle.
+/// Returns the yarn of a knot. The pattern has borders around a red ground with a stepped
+/// medallion.
 Yarn knot(int x, int y) {
   const int edge = std::min({x, y, kKnotsX - 1 - x, kKnotsY - 1 - y});
   if (edge == 0) return kNavy;
@@ -83,7 +84,7 @@ Yarn knot(int x, int y) {
 
 /// Returns one curtain: u from its free edge to the window's side, v upward.
 modelling::PolygonMesh curtain(double free_edge, double side, double bottom, double top, double y) {
-  constexpr double kTied = 0.34;  // where it is drawn aside
+  constexpr double kTied = 0.34;  // share of its height at which it is drawn aside
   constexpr int kFolds = 6;
   const auto sheet = [=](double u, double v) {
     const double above_tie = std::max(0.0, v - kTied) / (1.0 - kTied);
@@ -128,7 +129,7 @@ double settee_field(const glm::dvec3& p, const Settee& settee) {
       rounded_box_field(p - glm::dvec3(0.0, 0.0, kBottom + 0.11), {inner, 0.42, 0.11}, 0.03);
   const double back = rounded_box_field({p.x, p.y - 0.33 - 0.10 * (p.z - 0.5), p.z - 0.47},
                                         {inner + 0.06, 0.10, 0.36}, 0.07);
-  // The body under and behind the cushions, which fills the hollow space.
+  // The body under and behind the cushions fills the hollow space.
   const double core = rounded_box_field(p - glm::dvec3(0.0, 0.02, 0.33), {inner, 0.36, 0.10}, 0.02);
   const double behind = rounded_box_field({p.x, p.y - 0.26 - 0.13 * (p.z - 0.5), p.z - 0.55},
                                           {inner, 0.06, 0.24}, 0.02);
@@ -231,7 +232,7 @@ void add_rug(SceneBuilder& builder, const modelling::Rectangle& place) {
 }
 
 void add_curtains(SceneBuilder& builder, const modelling::Rectangle& window, double y) {
-  constexpr double kBeside = 0.26;  // of the wall, also covered
+  constexpr double kBeside = 0.26;  // width of wall that is also covered on each side
   const double bottom = window.lower.y - 0.12;
   const double top = window.upper.y + 0.10;
   const double rod = top + 0.038;

@@ -43,10 +43,10 @@ std::vector<glm::dvec3> bow() {
 modelling::PolygonMesh seat_board() {
   modelling::Profile edge({0.0, -0.5});
   edge.line({0.80, -0.5}).curve({1.0, 0.1}, 0.06, 3).curve({0.90, 0.5}, 0.05, 2);
-  edge.line({0.66, 0.42});  // the rest is under the cushion
+  edge.line({0.66, 0.42});  // the middle is hidden under the cushion
   modelling::PolygonMesh mesh = modelling::lathe(edge.points(), 28);
   for (glm::dvec3& vertex : mesh.vertices) {
-    // From a circle to a rounded square, narrower behind.
+    // Turns the circle into a rounded square that is narrower at the back.
     const double x = vertex.x * (1.0 + 0.14 * vertex.y * vertex.y);
     const double y = vertex.y * (1.0 + 0.14 * vertex.x * vertex.x);
     vertex = {0.225 * x * (1.0 - 0.07 * y), 0.215 * y, 0.445 + 0.036 * vertex.z};
@@ -135,7 +135,7 @@ void add_chair(SceneBuilder& builder, const glm::dmat4& place) {
   }
   chair.smooth(kSeat, above(cushion, 0.462));
 
-  // Splayed legs with an H of stretchers.
+  // The legs are splayed and joined by an H of stretchers.
   std::array<glm::dvec3, 4> low;
   std::size_t leg = 0;
   for (const glm::dvec3& top : posts(0.15, 0.14)) {
@@ -154,7 +154,7 @@ void add_chair(SceneBuilder& builder, const glm::dmat4& place) {
   const std::vector<glm::dvec3> path = bow();
   const std::vector<double> radii(path.size(), 0.0135);
   modelling::append(rods, modelling::tube(path, radii, 8));
-  // Spindles from the seat to points of the bow.
+  // The spindles run from the seat to points of the bow.
   for (const int i : {8, 10, 12, 14, 16}) {
     const glm::dvec3& up = path[static_cast<std::size_t>(i)];
     modelling::append(rods, rod({0.72 * up.x, 0.175, 0.45}, up, 0.0085, 6));
