@@ -27,8 +27,8 @@ std::optional<Overhead> overhead_of(const CellRecord& cell, const Names& names) 
       cell.harness->path == QueryPath::kImageOwn || cell.harness->path == QueryPath::kPicture) {
     return std::nullopt;
   }
-  // Excludes a plug-in that is faster than generating rays one by one: it does not generate them
-  // that way, whatever it states.
+  // Excludes a plug-in that takes less time than generating the rays one by one: it cannot generate
+  // them that way, whatever it states.
   if (trace->value <= cell.harness->ms) return std::nullopt;
   const std::string title = fmt::format("{} in {} at {}", names.contender, names.view,
                                         rays::to_string(cell.id.resolution));

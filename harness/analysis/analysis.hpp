@@ -17,11 +17,11 @@
 
 namespace beambench::analysis {
 
-/// The harness's own share of a trace (`harness_ms`), in the cell of a query path where it is the
-/// largest fraction of the contender's time.
+/// The harness's own time (`harness_ms`) on one query path, in the cell in which it is the largest
+/// fraction of the contender's trace time.
 struct Overhead {
   std::string path;   ///< the QueryPath, by name
-  std::string cell;   ///< its name
+  std::string cell;   ///< name of the cell
   std::string title;  ///< `samet max_level=5 in escena1 at 640x480`
   double part;        ///< fraction of the contender's median trace time
 };
@@ -30,7 +30,7 @@ struct Overhead {
 struct Analysis {
   std::size_t cells = 0;         ///< number of cells in the record
   std::size_t planned = 0;       ///< number of cells in the sweep, or in its shard
-  std::size_t failed = 0;        ///< wrong or not built
+  std::size_t failed = 0;        ///< cells with wrong hits, or not built
   std::size_t without_rays = 0;  ///< cells for which the scene has no rays of the kind
   std::size_t unsupported = 0;   ///< the structure does not support the rays or primitives
 
@@ -39,7 +39,7 @@ struct Analysis {
 
   bool is_part = false;                       ///< whether the run is a shard of a sweep
   std::vector<std::string> reasons_for_care;  ///< why the times cannot be fully trusted; clauses
-  std::optional<Steadiness> steadiness;       ///< of the machine; nothing if blocks are too few
+  std::optional<Steadiness> steadiness;       ///< nothing if there are too few blocks
   std::vector<Standings> views;
   std::vector<OverallStandings> means;
   std::vector<Overhead> overheads;  ///< the largest first
@@ -50,9 +50,9 @@ struct Analysis {
 /// Draws the conclusions from a run, which may have been cut off. Depends only on the run.
 Analysis analyze(const measure::Run& run);
 
-/// Returns the largest overhead of each query path with correct hits, the largest first. Structures
-/// that sample images themselves have none, and neither do whole pictures, which include shading by
-/// design.
+/// Returns the largest overhead of each query path, the largest first, among cells with correct
+/// hits. Structures that sample images themselves have no overhead, and neither do whole pictures,
+/// which include shading by design.
 std::vector<Overhead> largest_overheads(const measure::Run& run);
 
 /// Returns why the times of a run cannot be fully trusted: an unsteady machine, noise of equal
@@ -60,8 +60,8 @@ std::vector<Overhead> largest_overheads(const measure::Run& run);
 /// interval. Each reason is a clause; if there are none, the times can be trusted.
 std::vector<std::string> reasons_for_care(const measure::Run& run);
 
-/// Returns the exit code: mismatch if hits were wrong, invalid input if no scene of a whole sweep
-/// had any rays to measure. A shard may have none.
+/// Returns the exit code: mismatch if hits were wrong, invalid input if no cell of a whole sweep
+/// could be measured. A shard may have no such cell.
 int exit_code_of(const Analysis& analysis);
 
 /// Returns the text of analysis.json.

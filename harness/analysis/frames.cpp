@@ -20,8 +20,8 @@ using measure::Repetition;
 constexpr const char* kUpdated = "update=true";
 constexpr const char* kBuilt = "update=false";
 
-/// Returns a cell's parameters with one text replaced by another; nothing if they do not contain
-/// it.
+/// Returns a cell's parameters with one string replaced by another; nothing if the parameters do
+/// not contain the first string.
 std::optional<std::string> replaced(std::string parameters, const std::string& text,
                                     const std::string& by) {
   const std::size_t at = parameters.find(text);

@@ -16,7 +16,7 @@ namespace beambench::analysis {
 struct FrameCost {
   double ready_ms;  ///< time of the build, or of the update
   double trace_ms;
-  std::optional<double> sah_cost;  ///< of the hierarchy, if it states one
+  std::optional<double> sah_cost;  ///< SAH cost of the hierarchy, if it is reported
 
   double total_ms() const { return ready_ms + trace_ms; }
 };
@@ -27,7 +27,7 @@ struct FrameComparison {
   FrameCost updated;
   FrameCost built;
   TimeRatio total;  ///< updated structure over rebuilt one
-  TimeRatio trace;  ///< likewise: how much the update slows tracing
+  TimeRatio trace;  ///< the same for traces: how much the update slows tracing
 };
 
 /// A structure with one set of rays over the frames of a scene.
@@ -39,18 +39,18 @@ struct FrameSeries {
 
 /// The number of frames after which a structure should be rebuilt.
 struct RebuildInterval {
-  std::uint32_t frames;  ///< one build per that many frames; the others are updates
+  std::uint32_t frames;  ///< number of frames per build; all but one are updates
   double mean_ms;        ///< mean time of a frame at that interval
   bool is_all = false;   ///< no rebuild pays off within the frames measured
 };
 
-/// Returns the structures of a run that were measured both ways, in the order of the run. Omits
-/// cells with wrong hits.
+/// Returns the structures of a run that were measured both updated and rebuilt, in the order of the
+/// run. Omits cells with wrong hits.
 std::vector<FrameSeries> frame_series(const measure::Run& run);
 
 /// Returns the interval with the least mean time per frame: a build, then an update in each
-/// following frame, which costs as much as the update that many frames after frame 0. Interpolates
-/// linearly between measured frames.
+/// following frame. The k-th update after a build is assumed to cost as much as the measured update
+/// to frame k. Interpolates linearly between measured frames.
 RebuildInterval rebuild_interval(const FrameSeries& series);
 
 }  // namespace beambench::analysis

@@ -203,7 +203,7 @@ InOrder require_all(const std::vector<ShardFolder>& shards) {
                   fmt::join(missing, ", "), missing.front()));
 }
 
-/// A folder beside its final place, which is removed unless it is moved there.
+/// A temporary folder beside its final place. It is removed unless it has been moved to that place.
 class FolderAside {
  public:
   explicit FolderAside(const fs::path& target) : target_(target) {

@@ -17,7 +17,8 @@ namespace beambench::analysis {
 namespace {
 
 /// The flags that change which hits are found, with their defaults: whether edges are watertight,
-/// and whether the backs of closed solids are left out. A name states any other value.
+/// and whether the backs of closed solids are left out. Names state all other values of these
+/// flags.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kFlagsOfHits{
     {{"robust", "true"}, {"backface_culling", "false"}}};
 

@@ -16,16 +16,16 @@ struct NamedCell {
   int samples;
   std::string ray_kind;  ///< including its order
   std::string machine_id;
-  int parameter_sets;  ///< number tried for its contender; 1 without tuning
+  int parameter_sets;  ///< number of sets tried for the contender; 1 without tuning
 };
 
 /// The names of a cell among the cells of its run.
 struct Names {
-  /// The structure, with the parameters in which its variants differ, with `robust=false` and
-  /// `backface_culling=true`, which change hits, and with the order of the rays if it varies; if
-  /// tuned, `embree (best of 8)`.
+  /// The structure and the parameters in which its variants differ. Also states `robust=false` and
+  /// `backface_culling=true`, which change hits, and the order of the rays if it varies. If tuned:
+  /// `embree (best of 8)`.
   std::string contender;
-  std::string subject;  ///< the scene, with those of camera, samples and kind of rays that vary
+  std::string subject;  ///< the scene; also the camera, samples and ray kind if they vary
   std::string view;     ///< the subject with the machine: the unit of comparison
 };
 

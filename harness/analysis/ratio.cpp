@@ -10,7 +10,7 @@ namespace beambench::analysis {
 
 namespace {
 
-/// Returns the ratios for the keys (blocks or rounds) that both have.
+/// Returns the ratios for the keys (blocks or rounds) that both maps have.
 std::vector<double> common_ratios(const std::map<int, double>& over,
                                   const std::map<int, double>& under) {
   std::vector<double> ratios;

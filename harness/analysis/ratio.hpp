@@ -43,29 +43,30 @@ using TimesByRound = std::map<int, double>;
 /// Times by blocks: the value of each (`measure::trace_by_block`).
 using TimesByBlock = std::map<int, double>;
 
-/// Returns the geometric mean of the ratios of the blocks that both have, with its intervals
-/// (`measure::estimate`); nothing if they have no common block.
+/// Returns the geometric mean of the ratios of the blocks that both contenders have, with its
+/// intervals (`measure::estimate`); nothing if they have no common block.
 std::optional<TimeRatio> block_ratio(const TimesByBlock& over, const TimesByBlock& under);
 
-/// Returns the median ratio of the rounds that both have; nothing if they have no common round.
+/// Returns the median ratio of the rounds that both contenders have; nothing if they have no common
+/// round.
 std::optional<TimeRatio> paired_ratio(const TimesByRound& over, const TimesByRound& under);
 
-/// Returns the ratio of two medians. It has an interval if both have one: their distances to the
-/// ends add up in quadrature on a logarithmic scale (Zou and Donner, Statistics in Medicine 27,
-/// 2008).
+/// Returns the ratio of two medians. It has an interval if both medians have one: the distances
+/// from the medians to the interval ends add up in quadrature on a logarithmic scale (Zou and
+/// Donner, Statistics in Medicine 27, 2008).
 TimeRatio unpaired_ratio(const Median& over, const Median& under);
 
-/// Returns the geometric mean of at least one ratio. It has an interval if all have one: views are
-/// measured one after another, so their noise is independent, and the distances to the interval
-/// ends add up in quadrature. This interval covers measurement noise only; for the variation
-/// between views, see `scatter`.
+/// Returns the geometric mean of at least one ratio. The mean has an interval if all ratios have
+/// one: views are measured one after another, so their noise is independent, and the distances to
+/// the interval ends add up in quadrature. This interval covers measurement noise only; for the
+/// variation between views, see `scatter`.
 TimeRatio geometric_mean(std::span<const TimeRatio> ratios);
 
 /// Returns the 95% confidence interval of a geometric mean over views regarded as a random sample,
 /// from the scatter between them; nothing for fewer than two.
 std::optional<Interval> scatter(std::span<const TimeRatio> ratios);
 
-/// The time that a contender needs to build, and per ray.
+/// A contender's build time and its time per ray.
 struct Cost {
   double build_ms;
   double ns_per_ray;

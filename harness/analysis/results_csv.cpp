@@ -121,8 +121,9 @@ void add_update(Row& row, bool known, const CellRecord& cell) {
   row["update_ms_min"] = statistic(minimum, updates);
 }
 
-/// Returns the trace time without the harness's share. Returns null if nothing is left: for `null`,
-/// and for plug-ins that do not state that they generate no rays one by one.
+/// Returns the trace time without the harness's share; null if nothing is left. That is the case
+/// for `null`, and may be for plug-ins that do not state how they generate rays: they are taken to
+/// generate them one by one.
 Json net_of_harness(const CellRecord& cell) {
   if (!cell.harness || cell.verdict == verify::Verdict::kBaseline) return {};
   const double net = median(collect(cell, &Repetition::trace_ms)) - cell.harness->ms;
@@ -222,7 +223,8 @@ void add_hardware_counts(Row& row, const CellRecord& cell) {
   add("trace", &Repetition::trace_counts);
 }
 
-/// Families without nodes (Embree does not report any, `exhaustive` has none) leave these null.
+/// Adds sizes and qualities of the structure. The sizes of the tree are null for structures without
+/// nodes: `exhaustive` has no nodes, and Embree does not report any.
 void add_statistics(Row& row, const CellRecord& cell) {
   row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
   row["allocated_bytes"] = or_null(cell.allocated_bytes);
@@ -290,7 +292,7 @@ void add_verification(Row& row, const CellRecord& cell) {
 
 using Columns = std::vector<std::string>;
 
-/// Adds the columns of `row` that `columns` lacks, each after its predecessor.
+/// Adds the columns of `row` that `columns` lacks, each after its predecessor in `row`.
 void merge_columns(Columns& columns, const Row& row) {
   auto place = columns.begin();
   for (const auto& [name, value] : row.items()) {
@@ -328,8 +330,8 @@ std::string csv_line(const Columns& columns, const Row& row) {
   return csv_line(fields);
 }
 
-/// Writes header and rows. Calls `row` twice for each row, because all rows together take far more
-/// memory than the cells that they describe.
+/// Writes the header and the rows. Calls `row` twice for each row, because all rows together take
+/// far more memory than the cells that they describe.
 void write_table(std::ostream& out, std::size_t count, const std::function<Row(std::size_t)>& row) {
   Columns columns;
   for (std::size_t i = 0; i < count; ++i) merge_columns(columns, row(i));

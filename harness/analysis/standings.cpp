@@ -106,7 +106,7 @@ std::optional<std::string> why_absent(const std::string& structure, const CellRe
 using ViewCells = std::vector<std::pair<std::string, const CellRecord*>>;
 
 /// Returns the highest number of rays that at least two contenders have; if there is only one
-/// contender, its highest.
+/// contender, its highest number.
 std::uint64_t finest_rays(const ViewCells& all) {
   std::map<std::uint64_t, std::set<std::string>> contenders;
   for (const auto& [contender, cell] : all) {
@@ -120,7 +120,7 @@ std::uint64_t finest_rays(const ViewCells& all) {
 }
 
 /// Returns whether hardly any closest-hit ray hits, or almost all or hardly any any-hit rays are
-/// occluded. Records without blocks keep their published means.
+/// occluded. Returns false for records without blocks, whose published means must not change.
 bool is_degenerate(const CellRecord& cell) {
   constexpr double kFew = 0.01;
   if (!has_blocks(cell)) return false;

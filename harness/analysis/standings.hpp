@@ -59,7 +59,7 @@ struct LeftOut {
 /// which one machine measured at least two of them, since a run that was cut off may have only one
 /// at its last resolution. Times of different machines are not compared.
 struct Standings {
-  /// The scene, with those of camera, samples, kind of rays and machine of which a run has several.
+  /// The scene; also the camera, samples, kind of rays and machine if they vary within the run.
   std::string view;
   std::string subject;  ///< the view without the machine
   std::string size;     ///< `1280x1024`
@@ -74,11 +74,11 @@ struct Standings {
   bool is_degenerate = false;
   bool in_means = false;  ///< whether means include the view; degenerate views are excluded
 
-  measure::TraceClock clock = measure::TraceClock::kWall;  ///< the clock by which all are compared
+  measure::TraceClock clock = measure::TraceClock::kWall;  ///< the clock used for comparison
 
   /// Returns the first contender that is clearly slower than the fastest; null if there is none.
   const Standing* behind() const;
-  /// Returns Embree's fastest mode; null if there is none.
+  /// Returns Embree's fastest mode; null if Embree is not ranked.
   const Standing* embree() const;
   /// Returns the number of rays at which the total time of the fastest, build included, beats all
   /// contenders behind it: the additional build time divided by the time saved per ray. 0: from the
@@ -88,7 +88,7 @@ struct Standings {
   const Standing* last_overtaken() const;
 };
 
-/// A contender, over all views of one kind of rays.
+/// A contender's result over all views of one kind of rays.
 struct MeanStanding {
   std::string contender;
   std::string structure;
@@ -105,7 +105,7 @@ struct OverallStandings {
   std::vector<MeanStanding> references;
 };
 
-/// Returns the indices of the cells of tuned contenders that are outpaced in their view by another
+/// Returns the indices of the cells of tuned contenders that are slower in their view than another
 /// parameter set of the same contender: two sets are measured, and the faster one with correct hits
 /// represents the contender.
 std::set<std::size_t> outpaced_sets(const measure::Run& run);
@@ -116,9 +116,10 @@ std::vector<Names> names_of(const measure::Run& run);
 /// Returns whether a cell was measured in blocks.
 bool has_blocks(const measure::CellRecord& cell);
 
-/// Returns the trace time of a cell by a clock, or by its own (`measure::own_clock`): the mean over
-/// its blocks, with both intervals. In a record without blocks: the median of its repetitions with
-/// an interval, or the recorded figure. Returns nothing if its hits are not correct.
+/// Returns the trace time of a cell by a clock, or by the cell's own clock (`measure::own_clock`):
+/// the mean over its blocks, with both intervals. In a record without blocks: the median of its
+/// repetitions with an interval, or the recorded figure. Returns nothing if its hits are not
+/// correct.
 std::optional<measure::Estimate> trace_time(
     const measure::CellRecord& cell, std::optional<measure::TraceClock> clock = std::nullopt);
 

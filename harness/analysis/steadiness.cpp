@@ -14,8 +14,8 @@ namespace {
 
 using measure::CellRecord;
 
-/// For each block of a view: the mean of the logarithms of times, relative to each contender's own
-/// mean.
+/// For each block of a view: the mean over its contenders of the logarithm of the time, relative to
+/// the contender's own mean.
 using Blocks = std::map<int, double>;
 
 Blocks relative_times(std::span<const CellRecord* const> cells) {

@@ -11,7 +11,7 @@ namespace beambench::analysis {
 /// A comparison of the late blocks of a run with the early ones, over all cells.
 struct Steadiness {
   double shift;  ///< mean shift of the logarithms of times: 0.03 if late blocks took 3% longer
-  double limit;  ///< |shift| stays below it by chance in 95% of the runs of a steady machine
+  double limit;  ///< on a steady machine, |shift| stays below this in 95% of the runs
 
   bool is_steady() const { return shift <= limit && -shift <= limit; }
   /// Returns the part of the shift that chance does not explain, by which intervals of logarithms

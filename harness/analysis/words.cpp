@@ -50,7 +50,7 @@ std::string bar(double part) {
   return std::string(static_cast<std::size_t>(std::max(1L, std::lround(part * kWidth))), '#');
 }
 
-/// Returns the fastest, those equivalent to it, and those for which that is undecided.
+/// Returns the fastest contender, those tied with it, and the undecided ones.
 std::string winners(const Standings& view) {
   std::vector<std::string> tied, others;
   for (const Standing& one : view.ranked) {

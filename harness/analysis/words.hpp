@@ -19,8 +19,8 @@ std::string describe(std::span<const Standings> views);
 /// fastest.
 std::string describe_contenders(std::span<const Standings> views);
 
-/// Returns two lines, one on the hits and one on how far the times can be trusted, and a third if
-/// scenes lack some rays.
+/// Returns a line on the hits and a line on how far the times can be trusted, with further lines
+/// between them if cells have no rays or are unsupported.
 std::string describe_verdicts(const Analysis& analysis);
 
 /// Returns `harness overhead: at most 1.2% of a contender's trace time for images by single rays

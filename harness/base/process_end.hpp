@@ -1,12 +1,12 @@
 #pragma once
-// Words for how another process ended.
+// Describes how another process ended.
 
 #include <string>
 
 namespace beambench::base {
 
-/// Returns whether a status (waitpid) is that of a crash: ended by a signal that a fault of its own
-/// raised, not by one that somebody sent.
+/// Returns whether a status (waitpid) is that of a crash: the process was ended by a signal that
+/// its own fault raised, not by one that was sent to it.
 bool is_crash(int status);
 
 /// Returns how a process ended, by its status: "ended with exit code 3", "crashed (SIGSEGV:

@@ -16,7 +16,8 @@ std::string format_duration(double seconds);
 /// Elsewhere, one line is printed for each finished cell. Not thread-safe.
 class Progress {
  public:
-  /// `cells` may take different times; if these differ greatly, report the work done to `advance`.
+  /// The cells may take different times; if the times differ greatly, report the work done to
+  /// `advance`.
   explicit Progress(std::size_t cells, std::FILE* stream = stderr);
   Progress(std::size_t cells, std::FILE* stream, bool terminal);
   /// Clears the line.

@@ -40,7 +40,8 @@ int analyze(const AnalyzeRequest& request) {
 
 void add_analyze_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "analyze", "State what a run shows: who is fastest, and how reliable its times are");
+      "analyze",
+      "State what a run shows: which structure is fastest, and how reliable the times are");
   const auto request = std::make_shared<AnalyzeRequest>();
   command->add_option("DIR", request->folder, "The folder of a run; it may have been interrupted")
       ->required();

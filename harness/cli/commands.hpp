@@ -24,7 +24,7 @@ AddCommand add_sampling_command, add_census_command, add_mirrors_command;
 std::vector<AddCommand*> thesis_commands();
 /// Returns the names of all options of a command: `-o`, `--output` and so on.
 std::vector<std::string> option_names(const CLI::App& command);
-/// These two query the other commands of `app` when they run.
+/// These two commands inspect the other commands of `app` when they run.
 AddCommand add_completion_command, add_man_command;
 
 }  // namespace beambench::cli

@@ -117,8 +117,8 @@ std::string bash_script(const CLI::App& app) {
   }
   Words first = command_names(app);
   for (std::string& name : option_names(app)) first.push_back(std::move(name));
-  // The shell also divides words at colons, so the word is taken from the line. In a list, the part
-  // before the last comma or colon stays; it is removed again as far as the shell keeps it.
+  // The shell also divides words at colons, so the word is taken from the line. In a list,
+  // completions repeat the part before the last comma or colon, except what the shell keeps itself.
   return fmt::format(
       "_beambench() {{\n"
       "  local line=${{COMP_LINE:0:$COMP_POINT}} words='' command='' before='' token\n"
@@ -175,7 +175,7 @@ std::string zsh_script(const CLI::App& app) {
          "if [[ -n ${compstate+loading} ]]; then _bash_complete -o default -F _beambench; fi\n";
 }
 
-/// Quotes a text for fish, on one line.
+/// Quotes a string for fish, on one line.
 std::string fish_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -253,7 +253,7 @@ std::string script_for(const std::string& shell, const CLI::App& app) {
   return bash_script(app);
 }
 
-/// Escapes a text for roff, so that roff interprets no character as a request (groff_char(7),
+/// Escapes a string for roff, so that no character is interpreted as a request (groff_char(7),
 /// roff(7)).
 std::string escaped(std::string_view text) {
   std::string out;
@@ -305,8 +305,8 @@ std::string command_section(const CLI::App& command) {
 /// The environment variables that the program reads.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kEnvironment{{
     {"BEAMBENCH_MEMORY",
-     "Amount of memory the program may use, such as 800M or 12G; if not set, what the system and "
-     "its control groups allow."},
+     "Amount of memory the program may use, such as 800M or 12G; by default, as much as the system "
+     "and its control groups allow."},
     {"BEAMBENCH_PLUGINS",
      "Shared objects to load before any command, as with --plugin; multiple files are separated by "
      "colons."},

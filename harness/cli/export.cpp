@@ -58,9 +58,9 @@ void add_export_command(CLI::App& app, int&) {
   command->footer(
       "An NFF file reads back as the same scene, bit for bit. An OBJ file is for programs that "
       "trace\n"
-      "only triangles: it has those of all polygons, numbered from 0 as in the hits of 'beambench\n"
-      "verify --hits'; scenes with spheres or cones have none. Its numbers are exact if\n"
-      "read as float or rounded to float.\n"
+      "only triangles: it has the triangles of all polygons, numbered from 0 as in the hits of\n"
+      "'beambench verify --hits'. Scenes with spheres or cones have no OBJ file. Its numbers are\n"
+      "exact if read as float or rounded to float.\n"
       "Examples:\n"
       "  beambench export balls:n=3 -o balls.nff\n"
       "  beambench export tetra:n=5 -o tetra.obj\n"

@@ -30,7 +30,7 @@
 namespace beambench::cli {
 namespace {
 
-/// A late frame of animated scenes, whose coordinates all differ from those of the first.
+/// A late frame of animated scenes, all of whose coordinates differ from those of the first frame.
 constexpr int kFrame = 7;
 
 /// Scenes that exhaustive search traces in a fraction of a second. They have every kind of
@@ -73,7 +73,7 @@ struct Built {
 struct Tolerance {
   std::size_t rays = 0;
   std::size_t other_primitive = 0;
-  std::size_t other_t = 0;  ///< of the same primitive
+  std::size_t other_t = 0;  ///< hits of the same primitive with other bits of t
 };
 
 class Fingerprint {
@@ -94,7 +94,7 @@ class Fingerprint {
   }
   const std::string& text() const { return text_; }
 
-  /// True once a structure has returned different hits than `exhaustive`.
+  /// Whether any structure has returned hits that differ from those of `exhaustive`.
   bool differs = false;
   std::map<std::string, Tolerance> tolerances;
 

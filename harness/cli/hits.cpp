@@ -32,9 +32,8 @@ void write_hits(const HitsRequest& request) {
   const bool known =
       request.file.ends_with(rays::kHitFileEnding) || request.file.ends_with(rays::kCsvEnding);
   if (!known) {
-    throw InputError(
-        fmt::format("'{}' ends neither in {} nor in {}, the extensions of files of hits",
-                    request.file, rays::kHitFileEnding, rays::kCsvEnding));
+    throw InputError(fmt::format("'{}' ends neither in {} nor in {}, the extensions of hit files",
+                                 request.file, rays::kHitFileEnding, rays::kCsvEnding));
   }
   require_writable(request.file);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
@@ -68,7 +67,7 @@ void add_hits_command(CLI::App& app, int&) {
                    "Kind of rays (see 'beambench list') or a .rays or .csv file")
       ->capture_default_str();
   add_image_options(*command, request->image);
-  command->add_option("-o", request->file, "File to save them to, ending in .hits or .csv")
+  command->add_option("-o", request->file, "File to save the hits to, ending in .hits or .csv")
       ->required();
   command->footer(
       "The hits are the structure's own; 'beambench verify --hits' verifies them. The\n"

@@ -21,13 +21,13 @@ namespace beambench::cli {
 using base::open_animation;
 using base::open_scene;
 
-/// Describes SCENE in the help of every command.
+/// The description of SCENE in the help of every command.
 inline constexpr const char* kSceneHelp =
     "Catalogue name, mesh:NAME, or path of an NFF or mesh file";
 /// Adds SCENE as one required argument.
 void add_scene_option(CLI::App& command, std::string& scene);
-/// Throws InputError if a scene's name is that of a structure or of a kind of rays, because a list
-/// was separated by blanks instead of commas.
+/// Throws InputError if a scene's name is that of a structure or of a kind of rays, as happens if a
+/// list is separated by blanks instead of commas.
 void refuse_structures_as_scenes(const std::vector<std::string>& scenes);
 /// Adds --frame.
 CLI::Option* add_frame_option(CLI::App& command, std::uint32_t& frame);
@@ -48,7 +48,7 @@ CLI::Validator number_in(double lower, double upper);
 /// The requested camera: one of the scene's, or a view specified by options.
 struct ViewRequest {
   std::string camera;  ///< empty: the scene's first camera
-  std::string from;    ///< X,Y,Z; empty, like the others: that of the camera
+  std::string from;    ///< X,Y,Z; if this or `at` or `up` is empty: the camera's
   std::string at;
   std::string up;
   std::optional<double> angle;  ///< degrees
@@ -66,7 +66,7 @@ inline constexpr const char* kTypedCamera = "typed";
 /// for an unknown name, and stating the expected form for an invalid view.
 scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& request);
 
-/// Returns the structure given for `option`. Throws InputError if there are several.
+/// Returns the structure given for `option`. Throws InputError if several structures are given.
 accel::StructureChoice choose_one(std::string_view option, std::string_view text);
 
 /// The options of an image.

@@ -336,7 +336,7 @@ void add_list_command(CLI::App& app, int&) {
       "NAME", request->names, "Structures, scenes or kinds of rays to print (default: all)");
   CLI::Option* counters =
       command->add_flag("--counters", request->counters, "Print the work counters instead");
-  command->add_flag("--json", request->json, "Print JSON of everything instead of text")
+  command->add_flag("--json", request->json, "Print everything, as JSON instead of text")
       ->excludes(names)
       ->excludes(counters);
   counters->excludes(names);

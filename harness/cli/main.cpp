@@ -60,7 +60,7 @@ void add_plugin_option(CLI::App& app) {
       ->type_name("FILE");
 }
 
-/// Checks an option that stands where a command is expected.
+/// Throws InputError if an unknown option stands where a command is expected.
 void require_known_option(const CLI::App& app, const std::string& word) {
   const std::vector<std::string> names = option_names(app);
   if (std::ranges::find(names, word.substr(0, word.find('='))) != names.end()) return;
@@ -160,10 +160,10 @@ int run_command_line(const Arguments& arguments, const std::vector<std::string>&
   }
 }
 
-/// Disables the guard, for debuggers.
+/// Returns whether the user has disabled the guard, for debuggers.
 bool wants_no_guard() { return std::getenv("BEAMBENCH_UNGUARDED") != nullptr; }
 
-/// Runs foreign code in a separate process.
+/// Runs the program, in a separate process if it loads foreign code.
 int begin(int argc, char** argv) {
   try {
     plugin::set_program_name(argv[0]);

@@ -80,9 +80,8 @@ void show_rays(const RaysRequest& request) {
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   if (!request.file.empty()) {
     if (!rays::is_ray_file(request.file)) {
-      throw InputError(
-          fmt::format("'{}' ends neither in {} nor in {}, the extensions of files of rays",
-                      request.file, rays::kRayFileEnding, rays::kCsvEnding));
+      throw InputError(fmt::format("'{}' ends neither in {} nor in {}, the extensions of ray files",
+                                   request.file, rays::kRayFileEnding, rays::kCsvEnding));
     }
     require_writable(request.file);
   }
@@ -105,7 +104,7 @@ void add_rays_command(CLI::App& app, int&) {
                    "Kind of rays (see 'beambench list') or a .rays or .csv file")
       ->capture_default_str();
   add_image_options(*command, request->image);
-  command->add_option("-o", request->file, "File to save them to, ending in .rays or .csv");
+  command->add_option("-o", request->file, "File to save the rays to, ending in .rays or .csv");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Coherence is the mean cosine of the angle between the directions of a ray and the next. A\n"

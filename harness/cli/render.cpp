@@ -184,7 +184,7 @@ std::string remark_on_light(const RenderRequest& request, double stops,
   if (found.share <= kWorthSaying) return "";
   return fmt::format(
       "; {:.0f}% of the pixels are brighter than white; '--exposure {:.1f}' leaves 1%, "
-      "'--exposure {}' keeps the rest bright",
+      "'--exposure {}' keeps the other pixels bright",
       100.0 * found.share, stops + found.remedy, kAuto);
 }
 
@@ -247,7 +247,7 @@ verify::ReferenceHits find_reference(const RenderRequest& request, const scenes:
   return render::reference_from(scene, rays, results);
 }
 
-/// Writes the picture of differences; returns a text with their number.
+/// Writes the picture of differences; returns a string with their numbers.
 std::string compare(const RenderRequest& request, const accel::StructureChoice& choice,
                     const scenes::Scene& scene, const accel::PrimaryRays& rays,
                     const rays::TraceResults& results) {
@@ -400,10 +400,10 @@ void add_render_command(CLI::App& app, int&) {
       ->needs(soft);
   CLI::Option* exposure =
       command
-          ->add_option(
-              "--exposure", request->exposure,
-              "In stops: -1 halves the light, 1 doubles it; 'auto': brightens a dark picture and "
-              "rolls off a bright one, so that at most 1% of the pixels are clipped")
+          ->add_option("--exposure", request->exposure,
+                       "Exposure in stops: -1 halves the light, 1 doubles it; 'auto': brightens a "
+                       "dark picture and rolls off a bright one, so that at most 1% of the pixels "
+                       "are clipped")
           ->type_name("STOPS|auto")
           ->capture_default_str();
   CLI::Option* heatmap = command
@@ -414,15 +414,15 @@ void add_render_command(CLI::App& app, int&) {
   CLI::Option* difference =
       command
           ->add_option("--difference", request->difference,
-                       "Show where the hits differ from those of another structure, or of verify's "
-                       "'oracle', instead of shading")
+                       "Show where the hits differ from those of another structure, or from the "
+                       "'oracle' of 'beambench verify', instead of shading")
           ->excludes(heatmap)
           ->excludes(exposure);
   command
       ->add_option("--overlay", request->overlay,
-                   "Draw over the dimmed shading: 'beams', their outlines; 'cells', the occupied "
-                   "ones in perspective; or 'pencils', the shadow rays of a light "
-                   "('pencils:light=2': of the second) as they are traced together")
+                   "Draw over the dimmed shading: 'beams', the outlines of beams; 'cells', the "
+                   "occupied cells in perspective; or 'pencils', the shadow rays of a light "
+                   "('pencils:light=2': the second light) as they are traced together")
       ->excludes(heatmap)
       ->excludes(difference);
   command->footer(
@@ -430,8 +430,8 @@ void add_render_command(CLI::App& app, int&) {
       "and a structure's own. A .png gets a legend; an .exr has the counts beside linear float\n"
       "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colors\n"
       "pixels by the classes of 'beambench verify --help'.\n"
-      "--overlay beams colors those that end at occupied leaves, those that continue and those\n"
-      "that leave the scene; for tile-beam it draws tiles and their blocks of 4x4 samples.\n"
+      "--overlay beams colors beams that end at occupied leaves, that continue, or that leave the\n"
+      "scene; for tile-beam it draws tiles and their blocks of 4x4 samples.\n"
       "--overlay cells omits cells that others hide. --overlay pencils draws the parts\n"
       "of a light's pencil and their blocks, in colors for the sides of a cube about the light.\n"
       "Examples:\n"

@@ -36,8 +36,8 @@ struct ReportRequest {
   std::string reference;
 };
 
-/// Returns the Python that started this program from a wheel, or that of scripts/setup, or the
-/// system's.
+/// Returns the Python that started this program (from a wheel), otherwise the Python set up by
+/// scripts/setup, otherwise the system's Python.
 std::string find_python() {
   if (const char* starter = std::getenv("BEAMBENCH_REPORT_PYTHON")) return starter;
   std::error_code error;
@@ -65,8 +65,8 @@ void report(const ReportRequest& request) {
 }  // namespace
 
 void add_report_command(CLI::App& app, int& /*exit_code*/) {
-  CLI::App* command = app.add_subcommand(
-      "report", "Draw a run's plots and pictures, and a page that shows everything");
+  CLI::App* command =
+      app.add_subcommand("report", "Draw a run's plots and pictures, and a page that shows them");
   const auto request = std::make_shared<ReportRequest>();
   command->add_option("DIR", request->folder, "The folder of a run")->required();
   command
@@ -77,9 +77,8 @@ void add_report_command(CLI::App& app, int& /*exit_code*/) {
   command->footer(
       "Writes DIR/plots, DIR/pictures and DIR/report.html, and prints the path of the page. Needs "
       "the\nPython package: pipx install 'beambench[report]', or in a clone of the repository, "
-      "scripts/setup.\nIts Python is the one named by BEAMBENCH_REPORT_PYTHON, or that of either, "
-      "or "
-      "python3.\n"
+      "scripts/setup.\nIt runs in the Python named by BEAMBENCH_REPORT_PYTHON, in the "
+      "installation's, or in python3.\n"
       "Examples:\n"
       "  beambench run quick -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench report my-run");

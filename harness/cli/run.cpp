@@ -45,7 +45,7 @@ struct RunRequest {
   std::vector<std::string> benchmark_flags;
 };
 
-/// Returns the configuration from the named file, or that of the run to be resumed.
+/// Returns the configuration from the named file, or the configuration of the run to be resumed.
 measure::SweepConfig config_of(const RunRequest& request,
                                const std::optional<measure::Run>& earlier) {
   if (!request.config.empty()) return measure::read_sweep(request.config, accel::registry());
@@ -114,7 +114,8 @@ std::optional<measure::Shard> shard_of(const RunRequest& request,
   return facts ? std::optional(facts->shard) : std::nullopt;
 }
 
-/// Refuses a filtered shard, because shards are recognized as complete by their number of cells.
+/// Throws InputError for a filtered shard, because a shard is recognized as complete by its number
+/// of cells.
 void refuse_filtered_shard(const measure::BenchmarkFlags& flags) {
   for (const std::string& flag : flags.passed_on) {
     if (!flag.starts_with("--benchmark_filter")) continue;
@@ -258,8 +259,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
           ->excludes(output);
   command
       ->add_option("--shard", request->shard,
-                   "Only shard K of N: an equal part of the sweep by estimated time, to be "
-                   "measured on a different machine than the others; 'beambench merge' joins them")
+                   "Measure only shard K of N. Shards have equal estimated times and are measured "
+                   "on different machines; 'beambench merge' joins them")
       ->type_name("K/N")
       ->excludes(resume);
   command

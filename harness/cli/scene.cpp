@@ -1,4 +1,4 @@
-// beambench scene: prints the contents of a scene, or how it grows with its size.
+// beambench scene: prints the contents of a scene, or its primitives and memory at growing sizes.
 
 #include <algorithm>
 #include <cstdint>
@@ -196,7 +196,7 @@ void add_scene_command(CLI::App& app, int&) {
   CLI::Option* frame = add_frame_option(*command, request->frame);
   CLI::Option* growth = command->add_flag(
       "--growth", request->growth,
-      "Generate it in growing sizes; print the primitives, bytes and seconds of each");
+      "Generate the scene in growing sizes; print primitives, bytes and seconds for each");
   growth->excludes(frame);
   command->add_option("--growth-limit", request->growth_limit, "Maximum number of primitives")
       ->check(whole_number_in(1, measure::kMaxGrowth))

@@ -133,7 +133,8 @@ void print(const std::vector<CheckedProperty>& checked) {
   }
 }
 
-/// Returns `, over polygons only: it does not support spheres and cones`; empty if it supports all.
+/// Returns `, over polygons only: it does not support spheres and cones`; empty if all are
+/// supported.
 std::string limits_of(const verify::PrimitiveKinds& kinds) {
   if (kinds.all()) return "";
   return fmt::format(", over {} only: it does not support {}", fmt::join(kinds.names(), " and "),
@@ -163,7 +164,7 @@ void print_verdicts(const std::vector<CheckedProperty>& checked,
   }
 }
 
-/// Names the kit, which has more scenes than these checks.
+/// Prints how to verify the kit, which has more scenes than these checks.
 void print_next_step(const SelftestRequest& request) {
   if (request.structures == "all") return;
   const std::string program = plugin::program_call_here();
@@ -215,7 +216,7 @@ int write_kit(const SelftestRequest& request) {
   base::Progress progress(verify::kit_size(request.effort, kinds));
   const std::size_t scenes = verify::write_kit(request.kit, request.effort, kinds, progress);
   progress.clear();
-  fmt::print("{}: {} scenes of {}, each with queries for closest and any hits\n",
+  fmt::print("{}: {} scenes of {}, each with closest-hit and any-hit queries\n",
              printable(request.kit), scenes, fmt::join(kinds.names(), ", "));
   return base::kSuccess;
 }
@@ -259,7 +260,7 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--rays", request->effort.rays,
-                   "Approximate number of rays for each random scene: more find rarer errors")
+                   "Approximate number of rays for each random scene; more rays find rarer errors")
       ->check(whole_number_in(20, 1'000'000))
       ->capture_default_str();
   CLI::Option* minimize =

@@ -33,8 +33,8 @@
 namespace beambench::cli {
 namespace {
 
-/// The limit for `exhaustive`, as in the default sweep: above it, it would use up all the available
-/// time.
+/// The limit for `exhaustive`, as in the default sweep: above it, `exhaustive` would use up all the
+/// available time.
 constexpr int kMaxForExhaustive = 1000;
 
 struct TimeRequest {
@@ -146,7 +146,7 @@ nlohmann::json sweep_of(const TimeRequest& request) {
           {"exclude", {{{"structure", "exhaustive"}, {"primitives_above", kMaxForExhaustive}}}}};
 }
 
-/// Throws unless the sweep can be saved: it is JSON, so its texts must be UTF-8.
+/// Throws unless the sweep can be saved: it is JSON, so its strings must be UTF-8.
 void require_can_be_saved(const TimeRequest& request) {
   for (const std::string& scene : request.scenes) {
     if (is_utf8(scene)) continue;
@@ -215,7 +215,7 @@ void add_time_command(CLI::App& app, int& exit_code) {
                    "is timed separately")
       ->type_name("KIND[,KIND...]")
       ->capture_default_str();
-  command->add_option("--samples", request->samples, "Per pixel")->capture_default_str();
+  command->add_option("--samples", request->samples, "Samples per pixel")->capture_default_str();
   command
       ->add_option("--threads", request->threads,
                    "Threads that trace an image or a list (1 to 1024)")
@@ -223,7 +223,7 @@ void add_time_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--seconds", request->seconds,
-                   "Time for all repetitions; six of each are made in any case")
+                   "Time for all repetitions; each contender gets at least six")
       ->check(number_in(0.1, 1e6))
       ->capture_default_str();
   command->add_option("--save", request->save,

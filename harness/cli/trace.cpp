@@ -116,14 +116,15 @@ void add_trace_command(CLI::App& app, int& exit_code) {
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->required();
   command->add_option("--pixel", request->pixel,
-                      "Which primary ray: X,Y, counted from 0,0 at the top left");
+                      "Pixel of the primary ray: X,Y, counted from 0,0 at the top left");
   add_image_options(*command, request->image);
-  command->add_option("--sample", request->sample, "Which of the pixel's samples, starting at 0")
+  command->add_option("--sample", request->sample, "Index of the pixel's sample, starting at 0")
       ->capture_default_str();
   command
       ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
       ->capture_default_str();
-  command->add_option("--ray", request->ray, "Which ray, if not primary, starting at 0");
+  command->add_option("--ray", request->ray,
+                      "Index of the ray, if it is not primary, starting at 0");
   command->add_flag("--alone", request->alone,
                     "Trace no other rays: faster, but packets and beams may find a different hit");
   command->add_flag("--json", request->json, "Print JSON instead of text");

@@ -92,7 +92,8 @@ void print_disputes(const verify::VerifiedCell& cell) {
   if (!cell.picture.empty()) fmt::print("picture: {}\n", cell.picture);
 }
 
-/// Prints why kinds have no rays; each reason once, because it is the same for all structures.
+/// Prints why kinds have no rays. Each reason is printed once, because it is the same for all
+/// structures.
 void print_missing_rays(const std::vector<verify::VerifiedCell>& cells) {
   const std::string* last = nullptr;
   for (const verify::VerifiedCell& cell : cells) {
@@ -143,7 +144,7 @@ VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_give
   }
   if (!rays::is_ray_file(request.rays)) {
     throw InputError(fmt::format(
-        "with {}, --rays is a file of rays, not '{}'; 'beambench rays {} -o FILE.rays' writes one",
+        "with {}, --rays is a ray file, not '{}'; 'beambench rays {} -o FILE.rays' writes one",
         option, request.rays, shell_quoted(request.scenes.front())));
   }
   out.scene = request.scenes.front();
@@ -282,7 +283,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       command
           ->add_option("--hits", request->hits,
                        "Verify the hits that a program wrote to this .hits or .csv file for the "
-                       "rays of the file --rays")
+                       "rays of the file given by --rays")
           ->type_name("FILE");
   CLI::Option* samples =
       command->add_option("--samples", request->samples, "Rays per pixel: 1, 4, 5, 9, 16, ...")
@@ -322,17 +323,18 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   add_verbose_option(*command, request->verbose);
   command->footer(
       "Compares each ray's hit with that of Embree with exact intersectors. agree: the same\n"
-      "primitive at the same place; tie: another primitive at the same place; graze: the ray "
-      "passes\n"
-      "a boundary within rounding; structure error, oracle error: that one is wrong, by\n"
-      "exact arithmetic over all primitives. bits: whether bit-exact structures return the\n"
-      "same bits as exhaustive, or as the first of them. Exits with 1 unless every verdict is ok\n"
-      "(baseline for 'null'; no_rays if the scene has no rays of a kind, which is an error only\n"
-      "if no kind has any). Each error is printed with the command that replays it, a 'beambench\n"
-      "trace'.\n"
-      "With --hits or --command, the hits are those of any program; their picture marks where "
-      "they\n"
-      "are. The formats are in harness/verify/README.md, and 'beambench hits' writes an example.\n"
+      "primitive at the same place; tie: another primitive at the same place; graze: the ray\n"
+      "passes a boundary within rounding; structure error, oracle error: the structure or the\n"
+      "oracle is wrong, by exact arithmetic over all primitives. bits: whether bit-exact\n"
+      "structures return the same bits as exhaustive, or as the first of them. Exits with 1 "
+      "unless\n"
+      "every verdict is ok (baseline for 'null'; no_rays if the scene has no rays of a kind, "
+      "which\n"
+      "is an error only if no kind has any). Each error is printed with the 'beambench trace'\n"
+      "command that replays it.\n"
+      "With --hits or --command, the hits are those of any program; the picture marks the places\n"
+      "of hits that do not agree. The formats are in harness/verify/README.md, and\n"
+      "'beambench hits' writes an example.\n"
       "Examples:\n"
       "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"

@@ -36,7 +36,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kPrinted = 3;  // number of examples; the JSON has all
 
-/// The findings for one file of rays.
+/// The findings for one ray file.
 struct VerifiedClaims {
   std::string name;    ///< of the case
   std::string family;  ///< of a kit
@@ -60,7 +60,8 @@ struct VerifiedClaims {
   }
 };
 
-/// Returns whether a mismatch is a dispute: ties are not, and grazes only if there are too many.
+/// Returns whether a mismatch is a dispute. Ties are not disputes; grazes are disputes only if
+/// there are too many.
 bool is_dispute(const verify::Mismatch& mismatch, verify::Verdict verdict) {
   if (mismatch.is_fault()) return true;
   return mismatch.diff_class == verify::DiffClass::kOracleError ||
@@ -133,7 +134,7 @@ struct FamilyRow {
   }
 };
 
-/// Returns the rows in the order of the kit, with those that failed last.
+/// Returns the rows in the order of the kit, with failed rows at the end.
 std::vector<FamilyRow> rows_by_family(std::span<const VerifiedClaims> all) {
   std::vector<FamilyRow> rows;
   for (const VerifiedClaims& each : all) {
@@ -218,7 +219,7 @@ void unpack(const std::string& text, VerifiedClaims& claims) {
   take(claims.minimal);
 }
 
-/// Returns whether hits were verified, and all of them are right.
+/// Returns whether hits were verified and all of them are correct.
 bool passed(std::span<const VerifiedClaims> all) {
   return std::ranges::any_of(all, &VerifiedClaims::was_possible) &&
          std::ranges::all_of(all, [](const VerifiedClaims& claims) {
@@ -310,8 +311,8 @@ void verify_case(const VerifyHitsRequest& request, const scenes::Scene& scene,
   }
 }
 
-/// Verifies a case of a kit: one that the tracer declines is unsupported, and one where it fails is
-/// an error.
+/// Verifies a case of a kit: a case that the tracer declines is unsupported, and a case in which it
+/// fails is an error.
 VerifiedClaims verify_kit_case(const VerifyHitsRequest& request, const verify::KitCase& files,
                                const std::optional<verify::Tracer>& tracer,
                                base::Progress& progress) {
@@ -348,7 +349,7 @@ VerifiedClaims verify_kit_case(const VerifyHitsRequest& request, const verify::K
   return claims;
 }
 
-/// Returns the verdict with what is wrong, for the progress.
+/// Returns the verdict and the faults, for the progress line.
 std::string result_of(const VerifiedClaims& claims) {
   std::string text(verify::to_string(claims.verdict));
   if (claims.report.leaks > 0) text += ", " + base::counted(claims.report.leaks, "leak");
@@ -367,7 +368,7 @@ void print_oracle_note(bool any) {
   if (!any) return;
   fmt::print(
       "\n"
-      "oracle error: by exact arithmetic over all primitives, the program is right there, and the\n"
+      "oracle error: by exact arithmetic over all primitives, the program is right and the\n"
       "oracle, Embree with exact intersectors, is wrong. Such rays count as right.\n");
 }
 
@@ -377,8 +378,8 @@ std::string case_text(const std::filesystem::path& folder, const verify::Minimal
       "reduced to {} and {}, in {}{}", base::counted(minimal.primitives.size(), "primitive"),
       base::counted(minimal.input.size(), "ray"), printable(folder.string()),
       minimal.repeated ? ""
-                       : ": what the answers name; with --command it is traced "
-                         "again, which shows whether these are enough");
+                       : ": the primitives named in the hits; with --command, the ray is "
+                         "traced again, which shows whether they are enough");
   if (option.empty()) return text;
   const accel::PrimaryRays* image = minimal.input.image();
   const std::string rays = image == nullptr

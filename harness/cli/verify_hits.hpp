@@ -42,7 +42,7 @@ std::string case_text(const std::filesystem::path& folder, const verify::Minimal
                       const std::string& option);
 
 /// Reduces the fault `wrong`, writes the case below `folder`, and returns the text to print about
-/// it. `camera` is that of the rays if they are an image and it is not the scene's first.
+/// it. `camera` is the camera of an image's rays if it is not the scene's first.
 std::string minimized_text(const std::string& folder, const std::string& name,
                            const scenes::Scene& scene, const rays::TraceInput& input,
                            const verify::Mismatch& wrong, const verify::FindWrong& find_wrong,

@@ -24,8 +24,8 @@ struct DisplayMesh {
 inline constexpr std::size_t kMostTriangles = 200'000;
 
 /// Returns the polygons and cones of a scene; the viewer draws spheres itself. If there are more
-/// than `most` triangles, merges corners in the same cell of a grid and drops triangles that
-/// degenerate; the grid is as fine as the limit permits.
+/// than `most` triangles, merges corners in the same cell of a grid and drops degenerate triangles;
+/// the grid is as fine as the limit permits.
 DisplayMesh display_mesh(const scenes::Scene& scene, std::size_t most = kMostTriangles);
 
 }  // namespace beambench::explain

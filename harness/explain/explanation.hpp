@@ -21,8 +21,8 @@ rays::Resolution default_resolution(const scenes::Camera& camera);
 
 /// Builds one or two structures and follows the rays of an image, one per pixel (its first sample),
 /// through each. The result contains the scene and, for each structure, its statistics, cells,
-/// paths, beams and pencils; all arrays are in one text (`PackedArrays`). Calls `advance` from time
-/// to time with the fraction done; it may throw. Throws InputError if the image has more than
+/// paths, beams and pencils; all arrays are in one string (`PackedArrays`). Calls `advance` from
+/// time to time with the fraction done; it may throw. Throws InputError if the image has more than
 /// `kMostPixels` pixels or the number of structures is not one or two, and InvalidHit if a
 /// structure returns an impossible hit.
 nlohmann::json explain(

@@ -1,5 +1,5 @@
 #pragma once
-// Arrays of numbers for a page, as one compressed block of bytes in text form.
+// Arrays of numbers for a page, as one compressed block of bytes, encoded as a string.
 
 #include <bit>
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace beambench::explain {
 
 /// Collects arrays of little-endian numbers. JSON describes where each array is; the page gets all
-/// bytes in one text.
+/// bytes in one string.
 class PackedArrays {
  public:
   /// Adds an array and returns its description: `type` (the name of JavaScript's typed array

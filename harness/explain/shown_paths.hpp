@@ -14,7 +14,7 @@ namespace beambench::explain {
 
 /// A cell, node or leaf that rays or beams enter.
 struct Place {
-  std::string word;  ///< the family's: "leaf"
+  std::string word;  ///< its word in the structure's family: "leaf"
   std::uint64_t index = 0;
   bool has_box = false;
   accel::Cell cell;  ///< level 0 if there are no levels

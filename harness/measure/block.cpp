@@ -18,7 +18,7 @@
 namespace beambench::measure {
 namespace {
 
-/// Returns the facts about the view's rays in one order, if an earlier block determined them.
+/// Returns the facts about the view's rays in one order, if an earlier block has determined them.
 std::optional<RaySetFacts> known_facts(const Block& block, bool is_sorted) {
   for (const BlockCell& each : block.cells) {
     if (each.earlier.diff && each.cell.rays.is_sorted == is_sorted) return each.earlier.rays;

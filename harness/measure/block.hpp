@@ -1,8 +1,8 @@
 #pragma once
 // A block is the unit of measurement: one process builds and traces the contenders of a view a few
 // times, in turns. Conditions that vary between processes (addresses, pages, caches) are the same
-// for all of them, so times are compared within a block, and then across blocks (Kalibera and
-// Jones, Rigorous benchmarking in reasonable time, ISMM 2013).
+// for all these contenders, so times are compared within a block, and then across blocks (Kalibera
+// and Jones, Rigorous benchmarking in reasonable time, ISMM 2013).
 
 #include <cstdint>
 #include <functional>
@@ -18,8 +18,8 @@ namespace beambench::measure {
 /// A cell's part of a block.
 struct BlockCell {
   PlannedCell cell;
-  /// The results of earlier blocks; empty for a cell still to be counted and verified. Only the
-  /// number of its repetitions matters.
+  /// The results of earlier blocks; empty for a cell still to be counted and verified. Of its
+  /// repetitions, only the number matters.
   CellRecord earlier;
   int repetitions;  ///< number to make in this block
 };
@@ -29,8 +29,8 @@ struct Block {
   CellGroup view;  ///< without its cells
   std::vector<BlockCell> cells;
   int number;          ///< among the view's blocks, from 0
-  int first_round;     ///< of its repetitions; rounds are numbered across all blocks of a view
-  int second_traces;   ///< how many of each cell's first repetitions have one
+  int first_round;     ///< its first round; rounds are numbered across the view's blocks
+  int second_traces;   ///< number of each cell's first repetitions that have a second trace
   int tries;           ///< maximum number of tries of a disturbed repetition
   int core;            ///< the core to pin to; -1: any
   bool tunes = false;  ///< whether its cells are candidates to be timed once (tuning.hpp)

@@ -42,7 +42,7 @@ rays::RayChoice rays_of(const Json& text) {
   return rays::parse_ray_choice(path_of_name(text.get<std::string>()));
 }
 
-/// The events, as in a log, describe the results of earlier blocks.
+/// Converts a cell's part of a block. The results of earlier blocks are events, as in a log.
 Json to_json(const BlockCell& each) {
   Json json{{"index", each.cell.index},
             {"structure", each.cell.structure.label()},
@@ -117,7 +117,7 @@ Block read_block(const Json& json) {
   return block;
 }
 
-/// A pipe that closes its ends when destroyed, and does not pass them on to other programs.
+/// A pipe that closes its ends when destroyed. Other programs do not inherit the ends.
 class Pipe {
  public:
   Pipe() {
@@ -144,8 +144,8 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// Calls only functions that are safe between fork and exec: other threads may have been holding
-/// locks.
+/// Turns a forked process into the program. Calls only functions that are safe between fork and
+/// exec: other threads may have been holding locks.
 [[noreturn]] void become(char* const* arguments, char* const* environment, pid_t parent, int input,
                          int output) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -1,7 +1,7 @@
 #pragma once
 // Measures blocks in separate processes, which run this program with a special command. Such a
-// process reads a block from its standard input and writes events to its standard output, one line
-// of JSON each.
+// process reads a block from its standard input and writes events to its standard output, each as
+// one line of JSON.
 
 #include <optional>
 #include <string>
@@ -21,10 +21,11 @@ struct BrokenBlock {
   std::string how;                  ///< a clause: "it crashed (SIGSEGV: Segmentation fault)"
 };
 
-/// Measures a block in a new process, `program` with its arguments (it serves `kBlockCommand`), and
-/// passes the events on as they arrive. The process ends when this one does. Returns how the
-/// process failed; nothing if it measured the block. Throws InputError if it cannot be started, or
-/// refuses the block because a file has changed since the plan was made.
+/// Measures a block in a new process and passes the events on as they arrive. The process runs
+/// `program` with its arguments, which serves `kBlockCommand`, and ends when this process ends.
+/// Returns how the process failed; nothing if it measured the block. Throws InputError if the
+/// process cannot be started, or refuses the block because a file has changed since the plan was
+/// made.
 std::optional<BrokenBlock> measure_in_process(const Block& block,
                                               const std::vector<std::string>& program,
                                               const BlockWatch& watch);

@@ -16,7 +16,7 @@
 namespace beambench::measure {
 namespace {
 
-/// The maximum number of cells. No run could measure more: with six repetitions of one millisecond
+/// The maximum number of cells, more than any run measures: with six repetitions of one millisecond
 /// each, they take ten minutes.
 constexpr double kMaxCells = 100'000;
 
@@ -87,7 +87,8 @@ SweptParameter read_parameter(const std::string& structure, const std::string& n
   SweptParameter parameter{name, {}};
   for (const JsonNode& value : nodes) {
     const std::string text = value.parameter_text();
-    // Chosen separately for the sake of the message: parameters are checked independently.
+    // Each value is checked alone, so that the message names it; parameters are independent of each
+    // other.
     value.checked([&] { return structures.choose({structure, {{name, text}}}); });
     parameter.values.push_back(text);
   }
@@ -157,7 +158,7 @@ void require_tuned_once(const JsonNode& root, const std::vector<SweptStructure>&
   }
 }
 
-/// Returns an entry's scene; if the entry lists frames, in each of them.
+/// Returns an entry's scene; if the entry lists frames, the scene in each of these frames.
 std::vector<SceneEntry> read_scene(const JsonNode& node) {
   if (node.value().is_string()) return {{node.text(), {}, node.place()}};
   SceneEntry entry{node.find("scene")->text(), {}, node.place()};
@@ -206,7 +207,7 @@ void read_repetitions(const JsonNode& root, SweepConfig& config) {
   config.blocks = root.value().value("blocks", 8);
   config.minimum_repetitions = given.value("minimum", 5);
   config.maximum_repetitions = given.value("maximum", std::max(50, config.minimum_repetitions));
-  // Six is the fewest whose median has a 95% interval (see median_interval).
+  // Six is the smallest number whose median has a 95% interval (see median_interval).
   config.second_traces = given.value("second_traces", 6);
   if (config.maximum_repetitions < config.minimum_repetitions) {
     node->find("maximum")->fail(
@@ -223,7 +224,7 @@ void read_effort(const JsonNode& root, SweepConfig& config) {
   read_repetitions(root, config);
 }
 
-/// Refuses a file of rays that does not exist, before hours are spent on other cells.
+/// Refuses a ray file that does not exist, before hours are spent on other cells.
 rays::RayChoice existing(rays::RayChoice choice) {
   if (!choice.file.empty() && !std::filesystem::is_regular_file(choice.file)) {
     throw InputError(fmt::format("there is no ray file '{}'; 'beambench rays' writes one",

@@ -34,8 +34,8 @@ struct Exclusion {
 
 /// A contender of a sweep.
 struct SweptStructure {
-  /// Its parameter sets: one; or, if it is tuned, all those of which the two fastest on the tuning
-  /// camera are measured (tuning.hpp).
+  /// Its parameter sets: one set or, if it is tuned, all candidates. Of the candidates, the two
+  /// fastest with the tuning camera are measured (tuning.hpp).
   std::vector<accel::StructureChoice> sets;
   bool is_tuned = false;
 };
@@ -50,11 +50,11 @@ struct SweepConfig {
   std::vector<rays::RayChoice> rays;
   int threads;       ///< number of threads that trace an image
   double precision;  ///< desired relative half-width of the prediction interval of a trace time
-  int blocks;        ///< of each view, unless the precision needs more
+  int blocks;        ///< number per view, unless the precision needs more
   int minimum_repetitions;
   int maximum_repetitions;
-  int second_traces;      ///< per cell: number of repetitions followed by one
-  double budget_seconds;  ///< for the whole run; the minimum of repetitions is always made
+  int second_traces;      ///< per cell: number of repetitions followed by a second trace
+  double budget_seconds;  ///< for the whole run; the minimum number of repetitions is always made
   std::chrono::duration<double> warm_up;  ///< of the machine, before anything is timed
   std::vector<Exclusion> exclude;
 
@@ -64,8 +64,8 @@ struct SweepConfig {
 /// Reads and checks a configuration, by path or by name (`find_sweep`; schema:
 /// harness/measure/sweep.schema.json). Structures and their parameters are checked against
 /// `structures`, which must outlive the result. Throws InputError (`file:
-/// /structures/1/parameters/max_level: ...`), also if the lists multiply to more than 100,000
-/// cells, which is determined before any cell is created.
+/// /structures/1/parameters/max_level: ...`) for an invalid value, or if the lists multiply to more
+/// than 100,000 cells, which is determined before any cell is created.
 SweepConfig read_sweep(const std::string& asked, const accel::Registry& structures);
 
 /// Reads contenders as typed after `--accel`: "samet:max_level=6,embree:mode=best", "all". Throws

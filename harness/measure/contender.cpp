@@ -111,7 +111,7 @@ void Contender::repeat(const Instruments& instruments, int round, int position,
   }
   if (!was_verified && record_.diff) events.add_verification(record_);
   // Finishes without recording the repetition: a run that is cut off now must not resume with a
-  // wrong one.
+  // wrong repetition.
   if (failed_) return finish(events);
   events.add_repetition(record_);
 }

@@ -30,16 +30,16 @@ struct Instruments {
 class Contender {
  public:
   /// The first `second_traces` repetitions are followed by a second trace of the same structure.
-  /// `earlier` is the cell's record from earlier blocks: its repetitions count, and results must
-  /// equal its results.
+  /// `earlier` is the cell's record from earlier blocks: the repetitions in it count, and new
+  /// results must equal those in it.
   Contender(const PlannedCell& cell, Task& task, int second_traces, CellRecord earlier);
 
   /// Runs the untimed counting pass, which determines sizes and counters. Writes the start of the
   /// cell and, if the structure fails, its end.
   void count(const CellEvents& events);
-  /// Runs one timed repetition through Google Benchmark; the first ones are followed by a second
-  /// trace. Writes the repetition, the verification of the first one and, if the structure fails,
-  /// the end of the cell.
+  /// Runs one timed repetition through Google Benchmark; the first repetitions are followed by a
+  /// second trace. Writes the repetition, the verification after the first repetition and, if the
+  /// structure fails, the end of the cell.
   void repeat(const Instruments& instruments, int round, int position, const CellEvents& events);
 
   const CellId& id() const { return cell_->id; }
@@ -47,7 +47,7 @@ class Contender {
   const CellRecord& record() const { return record_; }
 
  private:
-  /// Leaves the structure that it builds in `structure`.
+  /// Builds and traces once; leaves the structure that it builds in `structure`.
   Repetition time_once(const Instruments& instruments,
                        std::unique_ptr<accel::Accelerator>& structure);
   void check_answers(const accel::Accelerator& structure);

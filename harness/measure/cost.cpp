@@ -10,7 +10,7 @@
 namespace beambench::measure {
 namespace {
 
-// Times on one core in 2024, from the published runs.
+// Times in nanoseconds on one core in 2024, from the published runs.
 constexpr double kOracleRay = 1500.0;
 constexpr double kHarnessRay = 5.0;
 constexpr double kExhaustiveTest = 5.0;  // one ray with one primitive
@@ -18,8 +18,8 @@ constexpr double kRayAtRoot = 40.0;
 constexpr double kRayPerLevel = 15.0;
 constexpr double kBuildPrimitive = 500.0;
 
-/// The cost of a repetition including the second trace, the clock's rate and the verification,
-/// relative to one trace.
+/// The cost of a repetition relative to its build and first trace alone. Includes the second trace,
+/// the measurement of the clock rate and the verification.
 constexpr double kBesideRepetition = 1.5;
 
 double levels(const CellGroup& group) {

@@ -30,7 +30,8 @@ fs::path sweep_folder() {
   return BEAMBENCH_SWEEPS;
 }
 
-/// Returns the name given by a path in the former folder; empty for other paths.
+/// Returns the name of the sweep to which a path in the former folder refers; empty for other
+/// paths.
 std::string former_name(const std::string& asked) {
   constexpr std::string_view kFormer = "harness/bench/sweeps/";
   const std::size_t at = asked.find(kFormer);

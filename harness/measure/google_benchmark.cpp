@@ -180,8 +180,8 @@ BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments) 
 }
 
 GoogleBenchmark::GoogleBenchmark(const BenchmarkFlags& flags) {
-  // The library also reads flags from the environment. Those that would repeat, redirect or list
-  // are reset: beambench handles repetitions, files and lists itself.
+  // The library also reads flags from the environment. Flags that would repeat, redirect or list
+  // benchmarks are reset: beambench handles repetitions, files and lists itself.
   std::vector<std::string> arguments{"beambench", "--benchmark_min_warmup_time=0",
                                      "--benchmark_repetitions=1", "--benchmark_list_tests=false",
                                      "--benchmark_out="};

@@ -24,17 +24,18 @@ struct BenchmarkFlags {
   std::vector<std::string> passed_on;  ///< --benchmark_filter, --benchmark_context, --v
   std::optional<int> repetitions;      ///< --benchmark_repetitions
   bool list = false;                   ///< --benchmark_list_tests
-  std::vector<std::string> notes;      ///< a sentence on each flag without effect, and the reason
+  std::vector<std::string> notes;      ///< a sentence for each flag without effect, with the reason
 };
 
-/// Throws InputError for a flag that Google Benchmark does not have or cannot read, naming the
+/// Parses the user's flags. Throws InputError for a flag that beambench does not accept, naming the
 /// valid flags.
 BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments);
 
 /// A timed piece of work. It loops over the state once and sets the iteration's time (manual time).
 using TimedWork = std::function<void(benchmark::State&)>;
 
-/// Runs timed work through Google Benchmark. One object at a time: the library's state is global.
+/// Runs timed work through Google Benchmark. Only one object may exist at a time: the library's
+/// state is global.
 class GoogleBenchmark {
  public:
   /// Throws InputError if the library refuses a flag.

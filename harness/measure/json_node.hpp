@@ -1,5 +1,5 @@
 #pragma once
-// Values of a JSON document written by a person, with messages that state the place of an error.
+// Values of a JSON document written by a person. Error messages state the place of the value.
 
 #include <functional>
 #include <optional>

@@ -41,7 +41,8 @@ std::uint64_t chain(std::uint64_t value) {
 }
 
 constexpr std::size_t kMinSlices = 40;
-// A chain of multiplications and additions, each waiting for the one before: about 0.2 ms.
+// A chain of multiplications and additions, each of which waits for the previous one, takes about
+// 0.2 ms.
 constexpr int kStepsOfASlice = 50'000;
 
 double slice_ms() {
@@ -63,7 +64,7 @@ perf_event_attr attributes_of(std::uint64_t config) {
   attributes.type = PERF_TYPE_HARDWARE;
   attributes.size = sizeof(attributes);
   attributes.config = config;
-  attributes.exclude_kernel = 1;  // unprivileged users may only count these, too
+  attributes.exclude_kernel = 1;  // so that unprivileged users may count, too
   attributes.exclude_hv = 1;
   attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
   return attributes;

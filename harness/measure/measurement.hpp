@@ -67,7 +67,8 @@ inline clockid_t cpu_clock(int threads) {
   return threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
 }
 
-/// Times `work`. The wall clock is read innermost: reading the CPU clock is a system call.
+/// Times `work`. The wall clock is read last before the work and first after it, because reading
+/// the CPU clock is a system call.
 template <class Work>
 PhaseTime time_phase(Work&& work, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   const base::CpuStopwatch cpu(clock);
@@ -80,7 +81,7 @@ PhaseTime time_phase(Work&& work, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
 /// Returns the clock rate of the core in GHz, from the time of a chain of dependent integer
 /// multiplications. They take three cycles each on the x86 processors of the last fifteen years
 /// (Fog, Instruction tables); on others the result is off by a constant factor. Uses the fastest of
-/// a few slices, about 30 us in total: interrupts make a slice longer, but nothing makes it
+/// a few slices, about 30 us in total: interrupts can make a slice longer, but nothing makes it
 /// shorter.
 double clock_ghz();
 
@@ -89,22 +90,22 @@ double clock_ghz();
 /// without the allocator.
 std::optional<std::uint64_t> heap_in_use();
 
-/// Returns the growth between two readings; 0 if it shrank, nothing if one is missing.
+/// Returns the growth between two readings; 0 if the heap shrank, nothing if a reading is missing.
 std::optional<std::uint64_t> heap_growth(std::optional<std::uint64_t> before,
                                          std::optional<std::uint64_t> after);
 
 /// Keeps the calling core busy, so that its clock and caches leave their idle state before the
-/// first repetition, and times slices of equal work meanwhile. Returns the noise of the second
-/// half; nothing if the time was too short.
+/// first repetition, and meanwhile times slices of equal work. Returns the noise of the second
+/// half; nothing if the duration was too short.
 std::optional<double> warm_up(std::chrono::duration<double> duration);
 
-/// Returns the additional time of the slowest twentieth over the median slice, as a fraction of the
-/// median: equal work takes longer only because of external causes (interrupts, other tenants, the
-/// clock). Returns nothing for fewer than 40 slices.
+/// Returns the time by which the slowest 5% of the slices exceed the median slice, as a fraction of
+/// the median: equal work takes longer only because of external causes (interrupts, other tenants,
+/// the clock). Returns nothing for fewer than 40 slices.
 std::optional<double> noise(std::span<const double> slices);
 
 /// Returns the time in milliseconds of a trace that costs a structure nothing: the median of
-/// several, after one that is not timed. `core` is the core to pin to; -1: any.
+/// several traces, after one that is not timed. `core` is the core to pin to; -1: any.
 double harness_ms(int core, const std::function<void()>& trace);
 
 /// Opens an event of the calling thread. Returns a file descriptor, or -1 with errno set
@@ -112,8 +113,8 @@ double harness_ms(int core, const std::function<void()>& trace);
 using OpenEvent = std::function<int(const perf_event_attr&)>;
 int open_perf_event(const perf_event_attr& attributes);
 
-/// Hardware counters of the constructing thread, in user mode. They run all the time and are read
-/// before and after a phase, so reading them is not part of what is timed.
+/// Hardware counters of the constructing thread, in user mode. The counters always run and are read
+/// before and after a phase, so the times do not include reading them.
 class HardwareCounters {
  public:
   explicit HardwareCounters(const OpenEvent& open = open_perf_event);

@@ -1,5 +1,5 @@
 #pragma once
-// A view while it is measured: the blocks that are done, and those that are needed.
+// A view while it is measured: its finished blocks, and the number that it needs.
 
 #include <optional>
 #include <vector>
@@ -24,7 +24,7 @@ struct OpenView {
   int blocks_made = 0;
   double block_ms = 0.0;  ///< time of the first block, including the start of its process
   int blocks = 1;         ///< planned number; before planning, the maximum allowed
-  StopReason reason = StopReason::kRepetitions;  ///< why there are no more
+  StopReason reason = StopReason::kRepetitions;  ///< why there are no more blocks
 };
 
 /// How a sweep's repetitions are divided into blocks.
@@ -56,8 +56,8 @@ std::vector<BlockCell> due(const OpenView& open, int block, const BlockLimits& l
 /// Returns the number of blocks that are complete for all cells of a view.
 int blocks_done(const OpenView& open, const BlockLimits& limits);
 
-/// Fixes the number of blocks of each view after its first one: at least the sweep's number, and as
-/// many as the precision needs, but no more than fit into `left_ms`.
+/// Determines the number of blocks of each view after its first block: at least the sweep's number,
+/// and as many as the precision needs, but no more than fit into `left_ms`.
 void plan_blocks(std::vector<OpenView>& views, const BlockLimits& limits, const SweepConfig& config,
                  double left_ms);
 

@@ -65,7 +65,8 @@ struct NewGroup {
   Orders orders;
 };
 
-/// Adds the group's cells, each once; `names` are the names of the cells in the plan.
+/// Adds the group's cells, omitting those already in the plan; `names` are the names of the cells
+/// in the plan.
 void add_group(const SweepConfig& config, const SceneEntry& entry, NewGroup made, Plan& plan,
                std::set<std::string>& names) {
   CellGroup& group = made.group;

@@ -20,11 +20,13 @@ struct PlannedCell {
   CellId id;
   accel::StructureChoice structure;
   rays::RayChoice rays;  ///< the rays of its view, in one of their orders
-  /// The number of its contender's parameter sets, if that is tuned with these rays; otherwise 1.
+  /// The number of parameter sets of its contender if the contender is tuned with these rays;
+  /// otherwise 1.
   int parameter_sets = 1;
 };
 
-/// The cells with the same rays, in any order, over the same scene: contenders, measured in turns.
+/// Cells with the same scene and the same rays, in any order of the rays: contenders measured in
+/// turns.
 struct CellGroup {
   std::shared_ptr<const scenes::Scene> scene;  ///< freed when the last of its groups is done
   std::uint64_t scene_hash;
@@ -34,7 +36,7 @@ struct CellGroup {
   rays::RayChoice rays;  ///< in the order of generation
   int threads = 1;       ///< number of threads that trace an image
   std::vector<PlannedCell> cells;
-  std::string spec{};  ///< of the scene, as spelled in the configuration
+  std::string spec{};  ///< the scene as spelled in the configuration
 
   /// Returns `escena1/default/320x200/1/primary`.
   std::string name() const;
@@ -49,7 +51,7 @@ CellId id_of(const CellGroup& view, const accel::StructureChoice& structure,
 
 struct Plan {
   std::vector<CellGroup> groups;
-  std::size_t merged = 0;  ///< number of cells that the configuration names more than once
+  std::size_t merged = 0;  ///< number of duplicate cells, which are measured once
 
   std::size_t cell_count() const;
 };
@@ -59,7 +61,7 @@ struct Plan {
 /// cannot be loaded or has no camera of that name, or if nothing is left to measure.
 Plan make_plan(const SweepConfig& config);
 
-/// Returns the facts of the scenes that the plan measures, each once.
+/// Returns the facts of the scenes in the plan, each once.
 std::vector<SceneFacts> scene_facts(const Plan& plan);
 
 /// Removes the cells that `keep` rejects, and groups without cells.
@@ -72,14 +74,14 @@ void filter_cells(Plan& plan, Keep keep) {
 }
 
 /// Returns `CellId::name` without those parameters of the scene and the structure that have their
-/// default values, which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
+/// default values, to keep lines short: `escena1/default/320x200/1/primary/samet:max_level=6`.
 std::string shown_name(const CellId& id);
 
-/// Returns the same for the structure alone: `samet:max_level=6`.
+/// Returns the structure's part of that name: `samet:max_level=6`.
 std::string shown_structure(const CellId& id);
 
-/// Returns the same for a scene's name: `tetra:n=4`, or `tetra` for `tetra:n=6`. Leaves paths
-/// unchanged.
+/// Returns a scene's name without parameters that have their default values: `tetra:n=4`, or
+/// `tetra` for `tetra:n=6`. Leaves paths unchanged.
 std::string shown_scene(const std::string& scene);
 
 }  // namespace beambench::measure

@@ -22,7 +22,8 @@ namespace {
 /// The fraction of the limit to aim at: a generator may round its size up.
 constexpr double kNearLimit = 0.99;
 
-/// The minimum growth in primitives over the last row for which a size gets a separate row.
+/// A size gets its own row only if its number of primitives exceeds that of the previous row by
+/// this factor.
 constexpr double kMinGrowth = 1.02;
 
 /// A generator, the given parameters, and its size parameter.
@@ -70,9 +71,9 @@ GrownScene measure(const Growing& growing, std::int64_t size) {
   return {scene.name, size, scene.primitives.size(), scenes::memory_bytes(scene), seconds};
 }
 
-/// The sizes of a scene whose growth is unknown. Between two sizes, and a little beyond, it is
-/// assumed to grow as a power of the size. For a scene that doubles with each step, the powers
-/// grow, so the estimates are too low rather than too high.
+/// Chooses the sizes of a scene whose growth is unknown. Between two sizes, and a little beyond,
+/// the number of primitives is assumed to grow as a power of the size. For a scene that doubles
+/// with each step, the powers grow, so the estimates are too low rather than too high.
 class Sizes {
  public:
   Sizes(const ParameterInfo& parameter, std::size_t limit)
@@ -94,8 +95,8 @@ class Sizes {
     const auto wanted = last.size * std::clamp(step, 1.0, 4.0);
     std::int64_t next = std::llround(std::floor(wanted)) + minimum_ - 1;
     const double one_more = last.primitives * std::pow((last.size + 1.0) / last.size, power);
-    // If the aim is less than one step away, takes one step if it grows enough; many small steps
-    // would show nothing.
+    // If the aim is less than one step away, takes one step if the scene grows enough; many small
+    // steps would show nothing.
     const bool worth_it = one_more <= limit_ && one_more >= kMinGrowth * last.primitives;
     if (next <= size && (worth_it || power <= 0.0)) next = size + 1;
     next = std::min(next, maximum_);

@@ -26,8 +26,8 @@ struct SceneGrowth {
 
 inline constexpr std::size_t kMaxGrowth = 10'000'000;
 
-/// Generates the scene in growing sizes, each with about twice as many primitives as the one
-/// before, up to the limit. `spec` is a catalogue name, with any parameters except its size. Throws
+/// Generates the scene in growing sizes, each with about twice as many primitives as the previous
+/// one, up to the limit. `spec` is a catalogue name, with any parameters except its size. Throws
 /// InputError if the scene has no size parameter, or if even the smallest scene is too large.
 SceneGrowth measure_growth(const std::string& spec, std::size_t limit, base::Progress& progress);
 

@@ -193,9 +193,9 @@ class SweepRun {
     return cells;
   }
 
-  /// Measures the first block of each view, which shows how many blocks the view needs and has time
-  /// for. Then measures the other blocks in passes over all views, which spreads each view's blocks
-  /// over the rest of the run.
+  /// Measures the first block of each view, which shows how many blocks the view needs and how many
+  /// there is time for. Then measures the other blocks in passes over all views, so that each
+  /// view's blocks are spread over the whole run.
   void measure() {
     const base::Stopwatch watch;
     for (OpenView& open : views_) {
@@ -220,9 +220,9 @@ class SweepRun {
     }
   }
 
-  /// Chooses the parameter sets of tuned contenders: if there are more than are measured, only the
-  /// fastest stay. A resumed run therefore does not tune again. A set that ends its process has no
-  /// time; the others continue.
+  /// Chooses the parameter sets of tuned contenders: if a contender has more than `kMeasuredSets`,
+  /// only the fastest stay. A resumed run therefore does not tune again. A set that ends its
+  /// process has no time; the others continue.
   void tune(OpenView& open, bool is_sorted) {
     std::map<std::string, std::vector<std::size_t>> contenders;
     std::vector<BlockCell> untried;
@@ -347,7 +347,7 @@ class SweepRun {
     if (cell->record.is_finished) report(cell->record);
   }
 
-  /// Records that a cell ended the process of its block.
+  /// Records a cell as failed because it ended the process of its block.
   void fail(const OpenView& open, OpenCell& cell, const std::string& how) {
     if (cell.record.is_finished) return;
     CellRecord& record = cell.record;
@@ -398,8 +398,8 @@ class SweepRun {
     progress_.finish(result_line(cell));
   }
 
-  /// Returns the progress of the unfinished cells, in cells, counting blocks. It is computed at
-  /// each event, possibly while a contender is timed.
+  /// Returns the progress of the unfinished cells, counting the finished part of each cell's
+  /// blocks. It is computed at each event, possibly while a contender is timed.
   double work_done() const {
     double done = 0.0;
     for (const OpenView& open : views_) {

@@ -39,7 +39,7 @@ struct SweepOptions {
 };
 
 /// Measures all cells of `plan` that are not yet in the folder's log, in blocks spread over the run
-/// (block.hpp); an unfinished cell continues after its last repetition. Writes only the log
+/// (block.hpp). An unfinished cell continues after its last repetition. Writes only the log
 /// (`RunLog`). Progress, mismatches and notes go to `messages`. Returns the folder. Throws
 /// InputError if the folder cannot be written, already contains a run, or contains one that cannot
 /// be resumed. Errors of structures, even those that end the process of a block, are recorded and

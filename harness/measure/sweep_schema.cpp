@@ -57,7 +57,7 @@ std::string range(const json& schema) {
   return fmt::format(" from {} to {}", schema["minimum"].dump(), schema["maximum"].dump());
 }
 
-/// Returns a description of what a schema expects for a value of a type.
+/// Describes what a schema expects of a value of the given type.
 std::string describe(const std::string& type, const json& schema) {
   if (type == "object") return "an object";
   if (type == "array") return "a list with at least one element";

@@ -32,7 +32,7 @@ void require_same(std::uint64_t hash, std::uint64_t known) {
                                rays::hex_digits(known), rays::hex_digits(hash)));
 }
 
-/// Rays that do not depend on the results: those of an image, or a list.
+/// Rays that do not depend on the results: the rays of an image, or a list of rays.
 class RaysTask : public Task {
  public:
   RaysTask(const CellGroup& group, const rays::RayChoice& rays, int core,
@@ -138,8 +138,8 @@ std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPict
 /// The picture of `render --shade whitted`, on one thread: camera rays by the structure's traversal
 /// for images (beams), the rest in waves, shading included. Verification covers every hit that the
 /// picture depends on, including those of reflected, refracted and shadow rays, rather than the
-/// picture itself: a second rendering, with all of them recorded, must equal the timed one bit for
-/// bit.
+/// picture itself: a second rendering, with all these rays recorded, must equal the timed one bit
+/// for bit.
 class PictureTask : public Task {
  public:
   PictureTask(const CellGroup& group, const rays::RayChoice& rays, int core,
@@ -222,8 +222,8 @@ class PictureTask : public Task {
   std::uint64_t ray_count() override { return facts().rays; }
   bool has_lists() const override { return true; }
 
-  /// Determines the facts, and the time of the picture without a structure, whose results are
-  /// known.
+  /// Determines the facts, and the time of drawing the picture from known hits, without a
+  /// structure.
   RaySetFacts find_facts() override {
     const accel::oracle::Oracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
     const render::RecordedPicture picture =

@@ -1,5 +1,5 @@
 #pragma once
-// The work that the contenders of a group do: tracing rays, or a whole picture.
+// The work that the contenders of a group do: tracing rays, or drawing a whole picture.
 
 #include <cstdint>
 #include <map>
@@ -19,7 +19,7 @@ namespace beambench::measure {
 /// The outcome of a verification.
 struct Verification {
   verify::DiffReport report;
-  std::vector<std::string> examples;  ///< descriptions of disputed rays, if the verdict is bad
+  std::vector<std::string> examples;  ///< descriptions of disputed rays, if hits are wrong
 };
 
 /// Rays, and one buffer for their results, which the contenders share in turns.
@@ -43,8 +43,8 @@ class Task {
   /// Returns a clause about unexpected rays, if there are any.
   virtual std::optional<std::string> warning() { return std::nullopt; }
 
-  /// Overwrites all results with invalid ones, so that the differ finds any that are left
-  /// unwritten.
+  /// Overwrites all results with invalid ones, so that the differ finds results that the structure
+  /// did not write.
   virtual void poison() = 0;
   /// Throws UnsupportedError if a structure does not support these rays.
   virtual void require_support(const accel::StructureChoice& choice) const = 0;
@@ -71,8 +71,8 @@ class Task {
   virtual std::uint64_t ray_count() = 0;
   virtual bool has_lists() const = 0;
   virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
-  /// Returns the time of a trace by `path` in which results cost nothing; `path` must not be that
-  /// of a structure's own samples.
+  /// Returns the time of a trace by `path` in which finding hits costs nothing. `path` must not be
+  /// that of structures that sample images themselves.
   virtual double measure_harness_ms(QueryPath path) = 0;
 
   const CellGroup& group_;

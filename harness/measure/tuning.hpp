@@ -1,7 +1,7 @@
 #pragma once
-// Tuning decides which of a contender's parameter sets are measured. They are timed with a camera
-// other than the reported one, because the fastest of several on the reported data would be fastest
-// partly by chance. Every contender has the same budget.
+// Tuning decides which of a contender's parameter sets are measured. The sets are timed with a
+// camera other than the reported one: if they were timed on the reported data, the fastest would be
+// fastest partly by chance. Every contender has the same budget.
 
 #include <cstddef>
 #include <map>
@@ -33,13 +33,13 @@ std::vector<accel::StructureChoice> best_embree(const accel::Registry& structure
 scenes::Camera tuning_camera(const scenes::Camera& camera);
 
 /// Times the block's cells with the tuning camera of its view: each is built once and traced a few
-/// times, and the fastest trace counts. Writes an event `candidate` for each, with its `trace_ms`
-/// or with the `error` that prevented one. Hits are not verified here; those of the fastest will
-/// be.
+/// times, and the fastest trace counts. Writes an event `candidate` for each cell, with its
+/// `trace_ms` or with the `error` that prevented the trace. Hits are not verified here; those of
+/// the fastest sets are verified when they are measured.
 void time_candidates(const Block& block, const BlockWatch& watch);
 
-/// Returns the indices of the fastest candidates, at most `kMeasuredSets`. If none has a time,
-/// returns the first candidate, which will show why. `times` is keyed by index.
+/// Returns the indices of the fastest candidates, at most `kMeasuredSets`. If no candidate has a
+/// time, returns the first one, whose measurement will show why. `times` is keyed by index.
 std::vector<std::size_t> fastest(const std::map<std::size_t, double>& times,
                                  const std::vector<std::size_t>& all);
 

@@ -35,7 +35,7 @@ constexpr const char* kGuardVariable = "BEAMBENCH_GUARD";  // the descriptor of 
 
 constexpr std::array kPassedOn{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
-/// Keeps the guard's signals from ending it, and forwards them to the child.
+/// Blocks signals that would end the guard, so that it can forward them to the child.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -74,7 +74,8 @@ int watch(pid_t child, const HeldSignals& signals) {
   }
 }
 
-/// Calls only functions that are safe between fork and exec: other threads may have held any lock.
+/// Turns a forked process into the guarded one. Calls only functions that are safe between fork and
+/// exec: other threads may have held any lock.
 [[noreturn]] void become_guarded(char** arguments, pid_t guard, const HeldSignals& signals) {
   signals.release();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -94,7 +95,7 @@ pid_t start(char** arguments, const Activity& activity, const HeldSignals& signa
   return child;
 }
 
-/// Returns whether the alarm ended the process that loading a plug-in sets.
+/// Returns whether the process was ended by the alarm that is set while a plug-in is loaded.
 bool hung(int status) { return WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM; }
 
 /// Returns how the process broke down; nothing if it ended normally.
@@ -133,7 +134,7 @@ int report_breakdown(const Activity& activity, const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// Returns new memory, which is all zeros: empty texts.
+/// Returns new memory. It is all zeros, so its strings are empty.
 int new_memory(std::size_t size) {
   const int descriptor = ::memfd_create("beambench", 0);
   if (descriptor < 0 || ::ftruncate(descriptor, static_cast<off_t>(size)) != 0) {
@@ -142,7 +143,7 @@ int new_memory(std::size_t size) {
   return descriptor;
 }
 
-/// Concatenates texts, truncated to the size of `place`, with a terminating zero.
+/// Concatenates strings, truncated to the size of `place`, with a terminating zero.
 void copy(std::span<char> place, std::initializer_list<std::string_view> pieces) {
   std::size_t room = place.size() - 1;
   char* end = place.data();

@@ -1,5 +1,6 @@
 #pragma once
-// Records what a process is doing where another process, the guard, can read it after a crash.
+// Records the current action of a process, so that another process, the guard, can read it after a
+// crash.
 
 #include <cstdint>
 #include <memory>
@@ -9,7 +10,7 @@
 
 namespace beambench::plugin {
 
-/// A few lines of memory shared by two processes. Writing costs one copy of the text.
+/// A few lines of memory shared by two processes. Writing costs one copy of the string.
 class Activity {
  public:
   enum class Line {
@@ -18,23 +19,24 @@ class Activity {
   };
 
   Activity();
-  /// Opens that of another process, whose descriptor this one has inherited. Throws
-  /// std::system_error if the descriptor refers to something else.
+  /// Opens the memory of another process's Activity by a descriptor that this process has
+  /// inherited. Throws std::system_error if the descriptor refers to something else.
   explicit Activity(int descriptor);
   ~Activity();
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
 
-  /// Writes a text in two pieces, truncated if it is too long.
+  /// Writes a string given in two pieces, truncated if it is too long.
   void write(Line line, std::string_view text, std::string_view rest = "");
   void clear(Line line) { write(line, ""); }
   std::string read(Line line) const;
-  /// Returns how many texts were written, by any process.
+  /// Returns how many strings were written, by any process.
   std::uint64_t count() const;
 
-  /// Returns the descriptor for the process that writes here, which inherits it.
+  /// Returns the descriptor, which the writing process must inherit.
   int descriptor() const { return descriptor_; }
-  /// Returns the environment variable by which a process opens it: "BEAMBENCH_GUARD=3".
+  /// Returns the environment variable from which a process reads the descriptor:
+  /// "BEAMBENCH_GUARD=3".
   std::string variable() const;
 
  private:
@@ -44,10 +46,10 @@ class Activity {
 };
 
 /// Runs this program again with the same arguments in a guarded process (see `guarded_activity`),
-/// and returns the exit code for this one: that of the guarded process or, if foreign code crashed,
-/// did not return from being loaded, or ended the process, 1 after a sentence on stderr with the
-/// code and the place (2 if it was being loaded). Termination signals are passed on. Called at the
-/// start of a program.
+/// and returns the exit code for this process. That is the guarded process's exit code, unless
+/// foreign code crashed, ended the process, or did not finish loading. Then it is 1 (2 if the code
+/// was being loaded), after a sentence on stderr that names the code and its action. Termination
+/// signals are passed on. Called at the start of a program.
 int run_guarded(char** arguments);
 
 /// Returns how a process broke down, by its status (waitpid) and what it recorded: "the plug-in

@@ -13,8 +13,8 @@ namespace {
 
 using accel::Ray;
 
-/// Rays of an image in one batch: enough that a call costs nothing, few enough for the first-level
-/// cache.
+/// The approximate number of rays of an image in one batch: so many that the cost of a call is
+/// negligible, but few enough for the first-level cache.
 constexpr std::size_t kImageBatch = 512;
 
 static_assert(sizeof(Ray) == sizeof(beambench_ray) &&

@@ -18,7 +18,7 @@ class BatchTracer {
   virtual ~BatchTracer() = default;
 
   /// Write one result for each ray. May be called from several threads. Throw UnsupportedError for
-  /// a query that is declined and PluginError for one that fails.
+  /// a query that is declined, and PluginError for a query that fails.
   virtual void closest_hits(const beambench_batch& batch, float* t,
                             std::uint32_t* primitive) const = 0;
   virtual void any_hits(const beambench_batch& batch, std::uint8_t* hits) const = 0;
@@ -28,7 +28,7 @@ class BatchTracer {
 };
 
 /// Returns the structure that traces with `tracer`: lists as one batch for each thread, images as
-/// batches of some rows, unless it takes whole queries.
+/// batches of a few rows. If the tracer takes whole queries, each query is one batch.
 std::unique_ptr<accel::Accelerator> structure_of(std::unique_ptr<BatchTracer> tracer);
 
 }  // namespace beambench::plugin

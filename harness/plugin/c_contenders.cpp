@@ -15,7 +15,8 @@
 namespace beambench::plugin {
 namespace {
 
-/// Throws as the status that a table's function returned requires.
+/// Throws unless a table's function returned BEAMBENCH_OK: UnsupportedError if it declined,
+/// otherwise PluginError.
 void require_ok(int status, std::string_view name, std::string_view what) {
   if (status == BEAMBENCH_OK) return;
   if (status == BEAMBENCH_UNSUPPORTED) {

@@ -79,7 +79,7 @@ class GuardedInspector final : public accel::Inspector {
   std::vector<accel::Cell> occupied_cells() const override {
     return guard_->call([&] { return shown().occupied_cells(); });
   }
-  /// Not forwarded, because readers rely on the node numbers.
+  /// Not forwarded, because callers rely on the node numbers.
   std::vector<accel::NodeFacts> nodes() const override { return {}; }
   std::optional<std::vector<accel::BeamOutline>> beams(
       const accel::PrimaryRays& image) const override {
@@ -139,8 +139,8 @@ class GuardedStructure : public accel::ForwardingAccelerator {
   Activity* activity_;
 };
 
-/// A plug-in's function that builds a structure, guarded. It is timed, so texts are made in advance
-/// or after an error.
+/// A plug-in's function that builds a structure, guarded. It is timed, so messages are made before
+/// the call or after an error.
 class GuardedBuild {
  public:
   GuardedBuild(const accel::StructureInfo& info, Activity& activity)

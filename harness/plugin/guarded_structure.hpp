@@ -1,5 +1,5 @@
 #pragma once
-// Guards calls of a plug-in's code, and its structures as used by the program.
+// Guards calls of a plug-in's code, and wraps its structures for use by the program.
 
 #include <exception>
 #include <memory>
@@ -38,9 +38,9 @@ decltype(auto) foreign_call(std::string_view who, std::string_view what, Code&& 
 }
 
 /// Returns the same structure, guarded: `activity` records its current action. Exceptions become a
-/// PluginError that names it, and so do a missing structure and invalid hits of single rays (hits
-/// of images and batches are left to the differ, so that timed code has only one additional call,
-/// not a check of each hit). `activity` must outlive the structure's use.
+/// PluginError that names the structure, and so do a missing structure and invalid hits of single
+/// rays. Hits of images and batches are left to the differ, so that timed code has only one
+/// additional call, not a check of each hit. `activity` must outlive the structure's use.
 accel::StructureInfo guarded(accel::StructureInfo info, Activity& activity);
 
 }  // namespace beambench::plugin

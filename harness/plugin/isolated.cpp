@@ -27,10 +27,10 @@
 namespace beambench::plugin {
 namespace {
 
-/// The first character of what a child writes.
+/// The first character of an outcome that a child writes.
 enum Kind : char { kResult = 'R', kInputError = 'I', kUnsupported = 'U', kOtherError = 'E' };
 
-/// Calls the work, and returns its outcome as text.
+/// Calls the work, and returns its outcome as a string.
 std::string outcome_of(const std::function<std::string()>& work) {
   try {
     return static_cast<char>(kResult) + work();
@@ -53,7 +53,7 @@ std::string outcome_of(const std::function<std::string()>& work) {
     if (count < 0 && errno != EINTR) ::_exit(1);
     if (count > 0) rest.remove_prefix(static_cast<std::size_t>(count));
   }
-  std::fflush(nullptr);  // what the plug-in has printed
+  std::fflush(nullptr);  // output of the plug-in
   ::_exit(0);
 }
 
@@ -85,7 +85,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Reads what it has written until it has closed its pipe. Returns false if one action of the
+  /// Reads the child's output until the child closes its pipe. Returns false if one action of the
   /// plug-in took longer than `seconds`.
   bool read(std::string& outcome, double seconds, const Activity& activity) const {
     constexpr int kMillisecondsBetweenLooks = 100;
@@ -105,12 +105,12 @@ class Child {
     }
   }
 
-  /// Ends it if it is still running.
+  /// Ends the child if it is still running.
   void end() {
     ::kill(id_, SIGKILL);
     wait();
   }
-  /// Waits for its end. Returns its status.
+  /// Waits until the child has ended. Returns its status.
   int wait() {
     int status = 0;
     while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {

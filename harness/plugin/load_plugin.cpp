@@ -60,7 +60,8 @@ std::string call_with_plugins(std::string_view program) {
   throw InputError(fmt::format("the plug-in {} {}", file, why));
 }
 
-/// Returns the loader's message without the file's name, which our message already has.
+/// Returns the loader's message without the file's name, which beambench's message already
+/// contains.
 std::string loader_message(const std::string& path) {
   const char* error = ::dlerror();
   std::string_view message = error == nullptr ? "no reason was given" : error;
@@ -91,11 +92,11 @@ void require_file(const std::string& file) {
   std::error_code error;
   if (!fs::exists(file, error)) refuse(file, "is not there; check the path after --plugin");
   if (!fs::is_regular_file(file, error)) {
-    refuse(file, "is not a file; name a shared object, or a program");
+    refuse(file, "is not a file; specify a shared object or a program");
   }
 }
 
-/// Returns whether a file is a program of its own: it may be run, and is not called `*.so`.
+/// Returns whether a file is a program: it is executable, and its name does not contain `.so`.
 bool is_program(const std::string& file) {
   return file.find(".so") == std::string::npos && ::access(file.c_str(), X_OK) == 0;
 }
@@ -115,16 +116,16 @@ void* open(const std::string& file) {
 }
 
 constexpr std::string_view kBuildAgain =
-    "build it again with the headers of this beambench, and options that change none of its types";
+    "build it again with the headers of this beambench and without options that change its types";
 
 /// The changes of each version of the interface, from version 2 on.
 constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "statistics() reports how a structure gets the rays of an image",
     "each query exists once, with a pointer to counters, and a list of rays is a RayBatch",
     "a RayBatch has the sample of each ray, its pencils the virtual eye's image, and "
-    "structures say where rays are in their beams",
+    "structures state where rays are in their beams",
     "statistics() names a library and its version, and add_tests counts tests by kind of primitive",
-    "a parameter says whether its values may change hits",
+    "a parameter states whether its values may change hits",
     "two queries over a source of rays with a context, an inspector in place of diagnostics, what "
     "a "
     "structure supports, and update()",
@@ -150,7 +151,7 @@ void require_same_version(const std::string& file, std::uint32_t version) {
 /// Reads `layout` and the following members only if the version guarantees that they exist.
 void require_same_stamp(const std::string& file, const PluginStamp& stamp) {
   if (stamp.magic != kPluginStamp.magic) {
-    refuse(file, fmt::format("is not a beambench plug-in: its '{}' is something else", kEntry));
+    refuse(file, fmt::format("is not a beambench plug-in: its '{}' is not an entry point", kEntry));
   }
   require_same_version(file, stamp.interface_version);
   if (std::strcmp(stamp.library, kPluginStamp.library) != 0) {
@@ -158,7 +159,7 @@ void require_same_stamp(const std::string& file, const PluginStamp& stamp) {
                              kPluginStamp.library, kBuildAgain));
   }
   if (stamp.layout != kPluginStamp.layout) {
-    refuse(file, fmt::format("has other types than this program, though its interface's version is "
+    refuse(file, fmt::format("has other types than this program, although the interface version is "
                              "the same; {}",
                              kBuildAgain));
   }
@@ -181,7 +182,7 @@ OpenedPlugin filled_by(const std::string& file, const Plugin& plugin) {
   return opened;
 }
 
-/// Returns the contents of a shared object or a program, by the interface that it has.
+/// Returns the contents of a shared object or a program, read through the interface that it has.
 OpenedPlugin opened(const std::string& file) {
   if (is_program(file)) {
     return {{{structure_of_program(file)}, {}, {}}, "a program of its own", "its author"};

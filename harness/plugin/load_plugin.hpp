@@ -26,16 +26,17 @@ struct LoadedPlugin {
 };
 
 /// Loads a plug-in and adds its contents to `registry()` and to the catalogue, each with `origin`
-/// set: a shared object with the C++ interface (plugin.hpp) or the C interface (contender.h), or a
-/// program (program_contender.hpp), which is an executable file not called `*.so`.
-/// Must be called before a structure or a scene is chosen. Throws InputError
-/// naming the file if it cannot be loaded, is not a plug-in, was built for another version of the
-/// interface (the message states the changes), with other types or another C++ library, throws, or
-/// provides nothing or contents that `check_contents` refuses. In that case, none of it is
-/// registered. `activity` must outlive the plug-in's use.
+/// set. A plug-in is a shared object with the C++ interface (plugin.hpp) or the C interface
+/// (contender.h), or a program (program_contender.hpp): an executable file whose name does not
+/// contain `.so`. Must be called before a structure or a scene is chosen. Throws InputError naming
+/// the file if it cannot be loaded; is not a plug-in; was built for another version of the
+/// interface (the message states the changes), with other types or with another C++ library;
+/// throws; or provides nothing, or contents that `check_contents` refuses. In that case, none of
+/// its contents are registered. `activity` must outlive the plug-in's use.
 void load_plugin(const std::string& file, Activity& activity);
 
-/// Returns where the loaded plug-ins record their actions; there must be one.
+/// Returns the object in which the loaded plug-ins record their actions. At least one plug-in must
+/// be loaded.
 Activity& activity_of_plugins();
 
 /// Returns the plug-ins in the order of loading.
@@ -45,11 +46,11 @@ std::span<const LoadedPlugin> loaded_plugins();
 /// `beambench` or `beambench --plugin ./libmine.so`.
 std::string program_call();
 
-/// Sets the word by which this program was called, for `program_call_here`; `beambench` by default.
+/// Sets the name by which this program was called, for `program_call_here`; `beambench` by default.
 void set_program_name(std::string_view word);
 
-/// Returns the same for commands to be pasted immediately into the shell from which the program was
-/// called: `build/release/bin/beambench --plugin ./libmine.so`.
+/// Returns the command for this program with its plug-ins, to be pasted into the shell from which
+/// the program was called: `build/release/bin/beambench --plugin ./libmine.so`.
 std::string program_call_here();
 
 /// Returns this program and its plug-ins, as the first words of a command that another process
@@ -58,9 +59,10 @@ std::string program_call_here();
 std::vector<std::string> program_words();
 
 /// Removes `--plugin FILE` and `--plugin=FILE` from a command line (the program's name first)
-/// before a `--`, and returns the files, each once. Those of the environment variable
-/// BEAMBENCH_PLUGINS come first: separated by colons, each a file, or a folder for all its `*.so`
-/// sorted by name. Throws InputError if the option has no file.
+/// before a `--`, and returns the files, each once. The files of the environment variable
+/// BEAMBENCH_PLUGINS come first. Its entries are separated by colons; each is a file, or a folder
+/// that stands for all its `*.so` files, sorted by name. Throws InputError if the option has no
+/// file.
 std::vector<std::string> take_requested_plugins(std::vector<std::string>& arguments);
 
 }  // namespace beambench::plugin

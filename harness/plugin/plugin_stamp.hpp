@@ -13,9 +13,9 @@
 
 namespace beambench::plugin {
 
-/// Incremented whenever an installed header changes so that a plug-in built with the old one would
-/// fail: a virtual function, a type, the meaning of a call. load_plugin.cpp lists the changes of
-/// each version.
+/// Incremented whenever an installed header changes in such a way that a plug-in built with the old
+/// header would fail: a virtual function, a type, the meaning of a call. load_plugin.cpp lists the
+/// changes of each version.
 inline constexpr std::uint32_t kPluginInterface = 9;
 
 /// Identifies the build of a plug-in. The position of the first two members never changes.
@@ -25,14 +25,14 @@ struct PluginStamp {
   bool optimized;
   std::uint64_t layout;      ///< fingerprint of the types that both sides use
   const char* library;       ///< the C++ library and its binary interface
-  const char* compiler;      ///< need not be the program's
-  const char* instructions;  ///< the instruction set it was compiled for
+  const char* compiler;      ///< may differ from the program's
+  const char* instructions;  ///< the instruction set for which it was compiled
 };
 
 namespace plugin_stamp {
 
-/// Hashes sizes and alignments of all types that both sides use with FNV-1a: they change with the
-/// project's headers, and with macros that change GLM or the C++ library.
+/// Hashes with FNV-1a the sizes and alignments of all types that both sides use. These change with
+/// the project's headers, and with macros that change GLM or the C++ library.
 template <class... Types>
 constexpr std::uint64_t layout_of() {
   std::uint64_t hash = 0xCBF29CE484222325U;
@@ -91,7 +91,7 @@ inline constexpr bool kOptimized = false;
 
 }  // namespace plugin_stamp
 
-/// The stamp of the code that includes this.
+/// The stamp of the code that includes this header.
 inline constexpr PluginStamp kPluginStamp{plugin_stamp::kMagic,       kPluginInterface,
                                           plugin_stamp::kOptimized,   plugin_stamp::kLayout,
                                           plugin_stamp::kLibrary,     plugin_stamp::kCompiler,

@@ -27,7 +27,8 @@
 namespace beambench::plugin {
 namespace {
 
-/// Interpreters that import large libraries take many seconds on a busy machine.
+/// The time limit for the description: interpreters that import large libraries take many seconds
+/// on a busy machine.
 constexpr double kSecondsToDescribe = 120.0;
 constexpr std::string_view kMagic = "BEAMSCN1";
 
@@ -61,7 +62,8 @@ void write_scene(const beambench_scene& scene, SharedMemory& memory) {
   out.write(scene.cones, scene.cone_count);
 }
 
-/// The processes of a program that no structure uses: starting an interpreter may take seconds.
+/// The program's processes that no structure uses. They are kept for reuse, because starting an
+/// interpreter may take seconds.
 class IdleProcesses {
  public:
   explicit IdleProcesses(std::string file) : file_(std::move(file)) {}
@@ -121,23 +123,23 @@ class ProgramTracer final : public BatchTracer {
                        {kSelfReportedTrace, 1e3 * trace_seconds_}};
     return statistics;
   }
-  /// The program's time for a query is then one number.
+  /// Returns true, so that the program reports one time for a query.
   bool takes_whole_queries() const override { return true; }
 
  private:
-  /// Returns where the results are.
+  /// Runs a query; returns the address of its results.
   const std::byte* trace(std::string_view query, const beambench_batch& batch,
                          std::size_t result_bytes) const {
     const std::size_t ray_bytes = batch.count * sizeof(beambench_ray);
     std::byte* memory = memory_.at_least(ray_bytes + batch.count * result_bytes);
     std::memcpy(memory, batch.rays, ray_bytes);
-    // What the program does not write must not pass for results of an earlier query.
+    // Overwrites earlier results, so that results that the program fails to write are detected.
     std::memset(memory + ray_bytes, 0xCD, batch.count * result_bytes);
     trace_seconds_ = ask(fmt::format("{} {} {}", query, memory_.path(), batch.count));
     return memory + ray_bytes;
   }
 
-  /// Returns the seconds that the program reports.
+  /// Sends a request and returns the seconds that the program reports.
   double ask(const std::string& request) const {
     const base::Stopwatch stopwatch;
     const std::string answer = process_->request(request, timeout_);
@@ -172,18 +174,18 @@ class ProgramTracer final : public BatchTracer {
   std::shared_ptr<IdleProcesses> idle_;
   std::string version_;
   double timeout_;
-  mutable std::mutex asking_;  ///< a program answers one request at a time
+  mutable std::mutex asking_;  ///< a program serves one request at a time
   std::unique_ptr<ProgramProcess> process_;
   mutable SharedMemory memory_;
   double build_seconds_ = 0.0;
   mutable double trace_seconds_ = 0.0;
 };
 
-/// Returns a text member of a description; an empty one if it is missing.
+/// Returns a string member of a description; an empty string if it is missing.
 std::string text_of(const nlohmann::json& description, const char* member) {
   if (!description.contains(member)) return "";
   if (!description[member].is_string()) {
-    throw PluginError(fmt::format("describes itself with a '{}' that is not a text", member));
+    throw PluginError(fmt::format("describes itself with a '{}' that is not a string", member));
   }
   return description[member].get<std::string>();
 }

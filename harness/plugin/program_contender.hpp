@@ -8,7 +8,7 @@
 
 namespace beambench::plugin {
 
-/// The figures by which statistics state times of the program's own clock.
+/// The figures of `Statistics` that state times by the program's own clock.
 inline constexpr const char* kSelfReportedBuild = "self_reported_build_ms";
 inline constexpr const char* kSelfReportedTrace = "self_reported_trace_ms";
 /// The end of a `library_version` with such times.

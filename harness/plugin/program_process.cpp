@@ -25,9 +25,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLongestAnswer = 65536;
 
-/// Calls only functions that are safe between fork and exec.
+/// Turns a forked process into the program. Calls only functions that are safe between fork and
+/// exec.
 [[noreturn]] void become(const char* file, int socket) {
-  ::setpgid(0, 0);  // what it starts in turn is ended with it
+  ::setpgid(0, 0);  // processes that it starts are ended with it
   ::dup2(socket, STDIN_FILENO);
   ::dup2(socket, STDOUT_FILENO);
   ::execl(file, file, "--beambench", "1", nullptr);
@@ -91,17 +92,18 @@ std::string ProgramProcess::request(const std::string& line, double seconds) {
       const ssize_t count = ::recv(socket_, part.data(), part.size(), 0);
       if (count <= 0) break;
       answer.append(part.data(), static_cast<std::size_t>(count));
-      if (answer.size() > kLongestAnswer) fail(fmt::format("answered '{}' at length", verb));
+      if (answer.size() > kLongestAnswer)
+        fail(fmt::format("answered '{}' with too long a line", verb));
     }
   }
   const std::size_t end = answer.find('\n');
   if (end == std::string::npos) {
     int status = 0;
-    ::kill(-process_, SIGTERM);  // it closed its output, and may not have ended
+    ::kill(-process_, SIGTERM);  // it has closed its output, but may still run
     ::waitpid(process_, &status, 0);
     process_ = -1;
     fail(
-        fmt::format("{} in place of answering '{}'; it must be executable, and serve requests "
+        fmt::format("{} instead of answering '{}'; it must be executable, and serve requests "
                     "until its input ends",
                     base::describe_end(status), verb));
   }

@@ -8,8 +8,8 @@
 
 namespace beambench::plugin {
 
-/// Vertices and triangles are those of the scene, which must outlive this object; spheres and cones
-/// are copied, because the scene keeps their ids elsewhere.
+/// The vertices and triangles are those of the scene, which must outlive this object. Spheres and
+/// cones are copied, because the scene stores their ids separately.
 class SceneArrays {
  public:
   explicit SceneArrays(const scenes::Scene& scene);

@@ -9,16 +9,18 @@ namespace beambench::plugin {
 /// An anonymous file in memory. It grows and never shrinks.
 class SharedMemory {
  public:
-  /// Throws std::system_error where the system has no such memory.
+  /// Throws std::system_error if the system does not provide such memory.
   SharedMemory();
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  /// Returns at least `bytes` of it; earlier addresses become invalid. Throws std::system_error.
+  /// Returns the memory, of at least `bytes` bytes; earlier addresses become invalid. Throws
+  /// std::system_error.
   std::byte* at_least(std::size_t bytes);
   std::byte* data() const { return data_; }
-  /// Returns the path by which other processes of the same user open it, while this object exists.
+  /// Returns the path by which other processes of the same user can open the memory while this
+  /// object exists.
   std::string path() const;
 
  private:

@@ -32,7 +32,7 @@ bool is_point(const glm::vec3& point) {
 }
 bool is_radius(float radius) { return radius >= 0.0F && is_number(radius); }
 
-/// Returns whether `count` entries from `first` on lie within an array of that size.
+/// Returns whether the `count` entries that start at `first` lie within an array of that size.
 bool lies_within(std::uint64_t first, std::uint64_t count, std::size_t size) {
   return first + count <= size;
 }
@@ -68,7 +68,7 @@ void check_polygon(const scenes::Scene& scene, const scenes::Polygon& polygon,
   }
   for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
     const scenes::Triangle& triangle = scene.triangles[polygon.first_triangle + i];
-    require(triangle.primitive == id, id, "has a triangle that belongs to another");
+    require(triangle.primitive == id, id, "has a triangle that is part of another primitive");
     for (const std::uint32_t vertex : triangle.vertex) {
       require(vertex < scene.vertices.size() && is_point(scene.vertices[vertex]), id,
               "has a triangle with a corner that is not a point");
@@ -78,20 +78,20 @@ void check_polygon(const scenes::Scene& scene, const scenes::Polygon& polygon,
 
 void check_primitive(const scenes::Scene& scene, scenes::PrimitiveId id) {
   const scenes::Primitive& primitive = scene.primitives[id];
-  require(primitive.surface < scene.surfaces.size(), id, "has a surface that is not there");
+  require(primitive.surface < scene.surfaces.size(), id, "has a surface that does not exist");
   const auto index = primitive.index;
   switch (primitive.kind) {
     case scenes::PrimitiveKind::kSphere:
-      require(index < scene.spheres.size(), id, "is a sphere that is not there");
+      require(index < scene.spheres.size(), id, "refers to a sphere that does not exist");
       return check_sphere(scene.spheres[index], id);
     case scenes::PrimitiveKind::kCone:
-      require(index < scene.cones.size(), id, "is a cone that is not there");
+      require(index < scene.cones.size(), id, "refers to a cone that does not exist");
       return check_cone(scene.cones[index], id);
     case scenes::PrimitiveKind::kPolygon:
-      require(index < scene.polygons.size(), id, "is a polygon that is not there");
+      require(index < scene.polygons.size(), id, "refers to a polygon that does not exist");
       return check_polygon(scene, scene.polygons[index], id);
   }
-  require(false, id, "is of no kind that there is");
+  require(false, id, "is of an unknown kind");
 }
 
 bool is_camera(const scenes::Camera& camera) {
@@ -113,7 +113,7 @@ bool is_name(std::string_view text) {
   });
 }
 
-/// The names of one kind of thing, each at most once.
+/// The names of all structures, scenes or parameters; each name may occur only once.
 class Names {
  public:
   Names(std::string_view what, std::set<std::string> taken)
@@ -163,7 +163,7 @@ void check_parameters(std::string_view what, const std::string& owner,
   try {
     const Parameters checked(owner, infos, defaults);
   } catch (const std::exception& error) {
-    throw PluginError(fmt::format("provides a {} '{}' whose defaults it would refuse: {}", what,
+    throw PluginError(fmt::format("provides a {} '{}' with invalid default parameters: {}", what,
                                   owner, error.what()));
   }
 }
@@ -175,9 +175,9 @@ void check_reader(const scenes::SceneReader& reader, std::set<std::string>& endi
                        return c == '.' || std::isdigit(c) != 0 || std::islower(c) != 0;
                      });
   require(sound, "reader of files", ending,
-          "whose ending is none: a dot, then small letters and digits");
+          "with an invalid ending: it must be a dot, then lowercase letters and digits");
   require(!scenes::is_scene_file("file" + ending) && endings.insert(ending).second,
-          "reader of files", ending, "but such files are read already");
+          "reader of files", ending, "for files that can be read already");
   require(!reader.summary.empty(), "reader of files", ending, "without a summary");
   require(static_cast<bool>(reader.read), "reader of files", ending, "without a function to read");
 }
@@ -186,7 +186,7 @@ void check_reader(const scenes::SceneReader& reader, std::set<std::string>& endi
 
 void check_scene(const scenes::Scene& scene) {
   if (scene.cameras.empty() || !std::ranges::all_of(scene.cameras, is_camera)) {
-    throw PluginError("it has no camera, or one that sees nothing; make scenes with SceneBuilder");
+    throw PluginError("it has no camera, or an invalid camera; make scenes with SceneBuilder");
   }
   scenes::Bounds bounds;
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
@@ -202,7 +202,7 @@ void check_scene(const scenes::Scene& scene) {
 
 void check_contents(const PluginContents& contents) {
   if (contents.structures.empty() && contents.scenes.empty() && contents.readers.empty()) {
-    throw PluginError("provides nothing: neither structures nor scenes nor readers of files");
+    throw PluginError("provides nothing: no structures, scenes or file readers");
   }
   Names structures("structure", names_of(accel::registry().structures()));
   for (const accel::StructureInfo& info : contents.structures) {
@@ -216,7 +216,7 @@ void check_contents(const PluginContents& contents) {
     scenes.take(info.name);
     require(!info.summary.empty(), "scene", info.name, "without a summary");
     require(static_cast<bool>(info.generate), "scene", info.name, "without a function to generate");
-    require(!info.animate, "scene", info.name, "that moves, which only built-in scenes can");
+    require(!info.animate, "scene", info.name, "that moves; only built-in scenes may move");
     check_parameters("scene", info.name, info.parameters);
   }
   std::set<std::string> endings;

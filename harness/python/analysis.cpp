@@ -33,8 +33,8 @@ using analysis::TimeRatio;
 
 /// A value and the ends of its interval.
 using Ends = std::tuple<double, std::optional<double>, std::optional<double>>;
-/// The same fields, and whether the ratio is paired, the ends of its prediction interval, and its
-/// error.
+/// A ratio: the fields of `Ends`, whether the ratio is paired, the ends of its prediction interval,
+/// and its error.
 using RatioFields = std::tuple<double, std::optional<double>, std::optional<double>, bool,
                                std::optional<double>, std::optional<double>, std::optional<double>>;
 
@@ -110,13 +110,13 @@ void bind_analysis(nb::module_& module) {
       [](const analysis::TimesByRound& over, const analysis::TimesByRound& under) {
         return known_fields_of(analysis::paired_ratio(over, under));
       },
-      nb::arg("over"), nb::arg("under"), "Returns the median ratio of the common rounds.");
+      nb::arg("over"), nb::arg("under"), "Returns the median ratio over the common rounds.");
   module.def(
       "block_ratio",
       [](const analysis::TimesByBlock& over, const analysis::TimesByBlock& under) {
         return known_fields_of(analysis::block_ratio(over, under));
       },
-      nb::arg("over"), nb::arg("under"), "Returns the mean ratio of the common blocks.");
+      nb::arg("over"), nb::arg("under"), "Returns the mean ratio over the common blocks.");
   module.def(
       "is_undisturbed",
       [](double trace_ms, double trace_cpu_ms) {
@@ -161,7 +161,8 @@ void bind_analysis(nb::module_& module) {
                                          {other_build_ms, other_ns_per_ray});
       },
       nb::arg("build_ms"), nb::arg("ns_per_ray"), nb::arg("other_build_ms"),
-      nb::arg("other_ns_per_ray"), "Returns the number of rays from which one contender is ahead.");
+      nb::arg("other_ns_per_ray"),
+      "Returns the number of rays at which one contender overtakes another.");
 }
 
 }  // namespace beambench::python

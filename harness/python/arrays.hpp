@@ -42,7 +42,7 @@ void require_valid_rays(std::span<const accel::Ray> rays);
 /// Returns `ray 17: direction is zero; ...` for a problem with the ray.
 std::string ray_fault(std::size_t index, std::string fault);
 
-/// An owner for arrays: the object lives until the last of them is gone.
+/// An owner for arrays: the object lives until the last of its arrays is destroyed.
 template <class T>
 nb::capsule keep(T object) {
   return nb::capsule(new T(std::move(object)),

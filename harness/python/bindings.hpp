@@ -8,8 +8,8 @@
 
 namespace beambench::python {
 
-/// A dict with names as keys and values of several types, and a list of such dicts, with their
-/// types for the stubs.
+/// A dict with names as keys and values of several types, and a list of such dicts; typed for the
+/// stubs.
 using Record = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
 using Records = nanobind::typed<nanobind::list, Record>;
 

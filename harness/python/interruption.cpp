@@ -20,7 +20,7 @@ namespace {
 constexpr std::chrono::milliseconds kPoll(50);
 constexpr std::chrono::seconds kPatience(1);  // for work that checks for stop requests
 
-/// The number of jobs that nobody is waiting for anymore.
+/// The number of jobs for which no caller is waiting anymore.
 std::atomic<int> abandoned{0};
 
 #if defined(__GLIBC__)

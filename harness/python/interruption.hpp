@@ -19,8 +19,7 @@ void check_signals();
 /// Thrown when work ends because its caller was interrupted.
 struct Stopped {};
 
-/// A request to stop, made when the caller of some work was interrupted and is no longer waiting
-/// for it.
+/// A request to stop some work, made when its caller has been interrupted and no longer waits.
 class StopRequest {
  public:
   bool made() const { return made_->load(std::memory_order_relaxed); }
@@ -40,7 +39,7 @@ class StopRequest {
 /// pointers), and no Python objects. Unfinished work is lost when the process ends.
 void run_apart(std::function<void(const StopRequest&)> work);
 
-/// Does the same for work that returns a result.
+/// Runs work that returns a result in the same way, and returns the result.
 template <class Work>
 auto result_of(Work work) {
   using Result = std::invoke_result_t<Work&, const StopRequest&>;
@@ -53,9 +52,9 @@ auto result_of(Work work) {
   return std::move(*shared->result);
 }
 
-/// The number of rays in each part of a list: as many as are traced in about a tenth of a second,
-/// since signals are noticed between two parts. It is a multiple of 16 (except for the slowest
-/// structures), so that packets of rays are the same as without parts.
+/// The number of rays in each part of a list. A part takes about a tenth of a second, because
+/// signals are handled only between two parts. The number is a multiple of 16 (except for the
+/// slowest structures), so that packets of rays are the same as without parts.
 class PartSize {
  public:
   std::size_t rays() const { return rays_; }

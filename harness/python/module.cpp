@@ -24,7 +24,7 @@ NB_MODULE(_beambench, module) {
   const nb::exception<beambench::InputError> input_error(module, "InputError", PyExc_ValueError);
   input_error.attr("__doc__") =
       "Invalid input: a name, a parameter, a file or a number. The message is one sentence that\n"
-      "says where the problem is, what was expected and what to do.";
+      "states where the problem is, what was expected and what to do.";
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       std::rethrow_exception(thrown);

@@ -273,7 +273,7 @@ void bind_scene(nb::module_& module) {
       .def_prop_ro(
           "hash",
           [](const SceneHandle& s) { return rays::hex_digits(scenes::scene_hash(*s.scene)); },
-          "The hash of all that rays can hit, as 16 hexadecimal digits.")
+          "The hash of everything that rays can hit, as 16 hexadecimal digits.")
       .def_prop_ro("bounds", &bounds_of, kOwned,
                    "Lower and upper corner of the bounding box: (2, 3) float32.")
       .def_prop_ro("vertices", &vertices_of, kOwned, "(V, 3) float32, read-only.")
@@ -287,7 +287,7 @@ void bind_scene(nb::module_& module) {
                    "(P,) uint32: 0 sphere, 1 cone, 2 polygon; read-only.")
       .def("rays", &rays_of_kind, nb::arg("kind"), nb::arg("image"),
            "The rays of a kind: (N, 8) float32.")
-      .def("pickled", &pickled, "All of it, bit for bit.");
+      .def("pickled", &pickled, "The whole scene, bit for bit.");
   module.def("unpickled_scene", &unpickled, nb::arg("pickled"), nb::arg("warnings"),
              "The scene stored by `Scene.pickled`.");
   module.def("load_scene", &load, nb::arg("spec"), nb::arg("strict"),

@@ -8,7 +8,7 @@
 
 namespace beambench::python {
 
-/// Returns all of a scene, bit for bit.
+/// Returns the bytes of a whole scene, bit for bit.
 std::string bytes_of_scene(const scenes::Scene& scene);
 
 /// Returns the scene stored in these bytes. Throws InputError for bytes from another version of

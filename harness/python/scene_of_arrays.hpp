@@ -16,7 +16,8 @@
 
 namespace beambench::python {
 
-/// Returns the triangles over the vertices, rounded to float once, with a single surface.
+/// Returns the mesh of triangles over the vertices, which are rounded to float once, with a single
+/// surface.
 scenes::mesh::TriangleMesh mesh_of(std::span<const glm::dvec3> vertices,
                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Queries that end when their caller was interrupted; they sit between long work and its structure.
+// Queries that end when their caller has been interrupted, for use between long work and its
+// structure.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +14,9 @@
 
 namespace beambench::python {
 
-/// Returns the hits and counters of another structure. After a stop request, its queries throw
-/// Stopped: before each ray of an image, and before a batch. If the structure traces beams or
-/// packets, its own query for images is used, which is fast but cannot be stopped.
+/// Forwards queries to another structure. After a stop request, they throw Stopped: before each ray
+/// of an image, and before a batch. If the structure traces beams or packets, its own query for
+/// images is used, which is fast but cannot be stopped.
 class StoppableQueries : public accel::ForwardingAccelerator {
  public:
   /// The structure must outlive this object.

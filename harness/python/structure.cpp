@@ -192,7 +192,7 @@ void bind_structure(nb::module_& module) {
       .def_prop_ro(
           "label", [](const StructureHandle& s) { return s.built->choice.label(); },
           "Its name and all parameters.")
-      .def_prop_ro("statistics", &statistics_of, "Its sizes, by name.")
+      .def_prop_ro("statistics", &statistics_of, "Its statistics, by name.")
       .def("closest_hits", &closest_hits, nb::arg("rays").noconvert(), nb::arg("counters"),
            "t, primitive and counters of a list of rays.")
       .def("any_hits", &any_hits, nb::arg("rays").noconvert(), nb::arg("counters"),

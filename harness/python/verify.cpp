@@ -35,7 +35,7 @@ namespace {
 /// wrong hits of a part takes seconds at most.
 constexpr std::size_t kPart = std::size_t{1} << 14U;
 
-/// Returns the array, or one without rows if none is given.
+/// Returns the array, or an array without rows if none is given.
 template <class T>
 using Numbers = ArrayIn<T, -1>;
 using Points = ArrayIn<float, -1, 3>;
@@ -139,7 +139,7 @@ void bind_verify(nb::module_& module) {
              nb::arg("t").noconvert(), nb::arg("point").noconvert(),
              nb::arg("primitive").noconvert(), nb::arg("triangle").noconvert(),
              nb::arg("occluded").noconvert(),
-             "A report, and the class of each ray; pass arrays without rows for those not given.");
+             "A report, and the class of each ray; pass empty arrays for omitted arguments.");
 }
 
 }  // namespace beambench::python

@@ -12,9 +12,9 @@
 
 namespace beambench::rays {
 
-/// Arrays with one element for each ray, in the order of the rays; missing ones are empty. Closest
-/// hits have `t` or `points` and, if the program provides them, `primitives` or `triangles`. Any
-/// hits have only `occluded`.
+/// Arrays with one element for each ray, in the order of the rays; missing arrays are empty. The
+/// hits of closest-hit queries have `t` or `points` and, if the program provides ids, `primitives`
+/// or `triangles`. Those of any-hit queries have only `occluded`.
 struct ClaimedHits {
   std::span<const float> t{};           ///< the hit is at origin + t * direction; infinity: a miss
   std::span<const glm::vec3> points{};  ///< the point that is hit; infinite: a miss
@@ -29,7 +29,7 @@ struct ClaimedHits {
   ClaimedHits part(std::size_t first, std::size_t count) const;
 };
 
-/// Owns the arrays.
+/// Claimed hits that own their arrays.
 struct HitTable {
   std::vector<float> t{};
   std::vector<glm::vec3> points{};

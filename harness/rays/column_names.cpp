@@ -40,7 +40,7 @@ bool is_divided_by(char separator, std::string_view line, KnownNames known) {
   return found > 1;
 }
 
-/// Refuses names that are separated by something other than a comma.
+/// Throws InputError if names are separated by something other than a comma.
 void require_commas(const std::string& place, std::span<const std::string> names,
                     KnownNames known) {
   struct Separator {

@@ -48,14 +48,15 @@ std::vector<std::string> names_of(std::string_view line) {
   return names;
 }
 
-/// Parses a number; nothing if the text is not one.
+/// Parses a number; returns nothing if the text is not a number.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (stop != text.data() + text.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // A number too small for double is 0, as its float would be; one too large is an error.
+    // A number too small for double is 0, as its float would be; a number too large for double is
+    // an error.
     if (text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos) {
       return 0.0;
     }

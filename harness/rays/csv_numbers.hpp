@@ -1,5 +1,5 @@
 #pragma once
-// Reads CSV files of numbers: a line with the names of the columns, then one line per record.
+// Reads CSV files of numbers: a line with the column names, then one line per record.
 
 #include <cstddef>
 #include <filesystem>

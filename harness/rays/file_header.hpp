@@ -1,5 +1,5 @@
 #pragma once
-// The second line of binary files of rays and hits: a JSON object.
+// Parses the second line of binary ray files and hit files: a JSON object.
 
 #include <filesystem>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// 64-bit fingerprints (XXH3) of rays, results and texts.
+// 64-bit fingerprints (XXH3) of rays, results and strings.
 
 #include <cstdint>
 #include <memory>

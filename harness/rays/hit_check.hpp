@@ -27,10 +27,10 @@ class HitCheck {
   /// `structure` is the subject of the message: "structure 'samet:max_level=6'".
   explicit HitCheck(const scenes::Scene& scene, std::string structure = "the structure")
       : HitCheck(scene.primitives.size(), std::move(structure)) {}
-  /// The same for a scene with that many primitives, if the scene itself is not available.
+  /// Checks hits over a scene of which only the number of primitives is known.
   HitCheck(std::size_t primitives, std::string structure)
       : primitives_(primitives), structure_(std::move(structure)) {}
-  /// The same; the message names the choice and, if it comes from a plug-in, its file.
+  /// Names the choice and, if it comes from a plug-in, its file in messages.
   HitCheck(const scenes::Scene& scene, const accel::StructureChoice& choice);
 
   /// Returns whether the hit is possible for the ray: one of the scene's primitives, at a finite t

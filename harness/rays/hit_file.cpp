@@ -101,10 +101,9 @@ class Columns {
 
  private:
   [[noreturn]] static void refuse_names(const std::filesystem::path& path) {
-    fail(path,
-         fmt::format("this is not a file of hits: its first line is neither '{}' nor the names "
-                     "of columns, {}",
-                     kFirstLine, kColumnHelp));
+    fail(path, fmt::format("this is not a hit file: its first line is neither '{}' nor the column "
+                           "names {}",
+                           kFirstLine, kColumnHelp));
   }
 
   [[noreturn]] static void refuse_missing(const std::string& place, Column column) {

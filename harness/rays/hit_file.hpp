@@ -1,5 +1,5 @@
 #pragma once
-// Files of hits: binary (`.hits`) and CSV.
+// Hit files: binary (`.hits`) and CSV.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace beambench::rays {
 
-/// The extension of binary files of hits.
+/// The extension of binary hit files.
 inline constexpr std::string_view kHitFileEnding = ".hits";
 
 /// A `.hits` file has three parts: the line `beambench-hits 1`; one line of JSON; then the hits,
 /// one for each ray in the order of the rays, without padding, in little-endian order. The JSON
-/// must have `hits` (how many) and `columns`, the names of a hit's numbers in order; other members
-/// are for human readers. The columns are one of
+/// must have `hits` (their number) and `columns`, the names of a hit's numbers in order; other
+/// members are for human readers. The columns are one of
 ///
 ///     t                 float32   the hit is at origin + t * direction; infinity: a miss
 ///     x, y, z           float32   the point that is hit; all infinite: a miss
@@ -31,9 +31,9 @@ inline constexpr std::string_view kHitFileEnding = ".hits";
 ///
 ///     primitive         uint32    the id in the scene; 4294967295: a miss
 ///     triangle          uint32    the triangle, as `beambench export` numbers them; 4294967295:
-///     none
+///     a miss
 ///
-/// or, for any hits, only `occluded`, one byte: 1 if the ray hits something, otherwise 0. In
+/// or, for any-hit queries, only `occluded`, one byte: 1 if the ray hits something, otherwise 0. In
 /// Python:
 ///
 ///     hits = numpy.zeros(len(rays), [("t", "<f4"), ("primitive", "<u4")])
@@ -49,11 +49,11 @@ inline constexpr std::string_view kHitFileEnding = ".hits";
 void write_hit_file(const std::filesystem::path& path, const TraceResults& results,
                     const nlohmann::ordered_json& note);
 
-/// Reads a file of hits in parts. The first line determines the format. verify::ClaimVerifier
-/// checks the values of the hits.
+/// Reads a hit file in parts. The first line determines the format. verify::ClaimVerifier checks
+/// the values of the hits.
 class HitReader {
  public:
-  /// Throws InputError with the file name and the problem: it is not a file of hits, has another
+  /// Throws InputError with the file name and the problem: it is not a hit file, has another
   /// version, has columns that are unknown or cannot be combined, or is too short or too long.
   explicit HitReader(const std::filesystem::path& path);
   ~HitReader();
@@ -64,9 +64,9 @@ class HitReader {
   Query query() const;
   /// Returns the number of hits stated in the file; nothing for CSV.
   std::optional<std::uint64_t> count() const;
-  /// Replaces the table's content with the next hits, at most `at_most`, and returns how many:
-  /// fewer only at the end of the file. Throws InputError with the line of a CSV file that does not
-  /// contain numbers.
+  /// Replaces the table's content with the next hits, at most `at_most`, and returns their number,
+  /// which is smaller only at the end of the file. Throws InputError naming the line of a CSV file
+  /// if it does not contain numbers.
   std::size_t read(std::size_t at_most, HitTable& hits);
   /// Returns the place of a hit in the file, such as `hits.csv:18` or `some.hits: byte 1234`.
   std::string place_of(std::size_t index) const;

@@ -18,13 +18,13 @@ struct LevelVisits {
   std::uint64_t leaves = 0;           ///< including empty ones
   std::uint64_t occupied_leaves = 0;  ///< leaves with references
   std::uint64_t node_visits = 0;  ///< pairs of a ray and a node on its path, up to its first hit
-  std::uint64_t leaf_visits = 0;  ///< those visits that are to leaves
+  std::uint64_t leaf_visits = 0;  ///< node visits to leaves
   std::uint64_t beams = 0;        ///< pairs of a beam of an image and a leaf on its path (`beam`)
 };
 
 /// Returns all levels, from the root to the deepest; empty for a structure without an octree.
-/// Traces the rays one by one, as `samet` does, and for `beam` also as beams. Takes time and memory
-/// for each leaf on a ray's path.
+/// Traces the rays one by one, as `samet` does, and for `beam` also as beams. Time and memory grow
+/// with the number of leaves on the rays' paths.
 std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
                                             const TraceInput& input);
 

@@ -23,8 +23,8 @@ inline constexpr int kMaxLightPoints = 1024;
 /// Returns point lights in the ball about each light of a scene, light by light. All lights, and
 /// all places that they illuminate, use the same points. These are spread evenly: directions by a
 /// Fibonacci lattice (Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-
-/// longitude lattices", Mathematical Geosciences 42, 2010), distances by a Weyl sequence. Together
-/// they are as bright as the light.
+/// longitude lattices", Mathematical Geosciences 42, 2010), distances by a Weyl sequence. Together,
+/// the points are as bright as the light.
 std::vector<scenes::Light> area_lights(const scenes::Scene& scene, const LightExtent& extent);
 
 }  // namespace beambench::rays

@@ -100,7 +100,7 @@ bool has_one_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) 
       triangles, [&](const scenes::Triangle& triangle) { return unit_normal(triangle) == first; });
 }
 
-/// Computes what `NormalTable` stores; for a few places only.
+/// The data of a `NormalTable`, computed when used: for a few places only.
 struct UntabledNormals {
   glm::dvec3 at_corner(std::size_t normal) const {
     return glm::normalize(glm::dvec3(scene->normals[normal]));
@@ -113,7 +113,7 @@ struct UntabledNormals {
   const scenes::Scene* scene;
 };
 
-/// Interpolates the corners' normals; returns the geometric one if they cancel out.
+/// Interpolates the corners' normals; returns the geometric normal if they cancel out.
 template <class Table>
 glm::dvec3 smooth_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
                          const Place& place, const Table& table) {

@@ -29,7 +29,7 @@ std::vector<PixelRange> squares_of(const accel::PrimaryRays& image, int samples)
 
 /// Calls `visit(x, y, sample)` for each sample of one of these squares: blocks of 4x4 pixels in
 /// Morton order, so that 16, 256 or 4096 consecutive samples are close together. Within a block,
-/// all pixels, row by row, have their first sample visited, then their second, and so on.
+/// the first sample of each pixel is visited, row by row, then the second samples, and so on.
 template <class Visit>
 void for_each_sample(const PixelRange& square, int samples, const Visit& visit) {
   constexpr int kBlock = 4;

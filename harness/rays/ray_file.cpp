@@ -70,8 +70,8 @@ void require_valid_ray(const accel::Ray& ray, const std::function<std::string()>
 
 // Binary files
 
-/// Parses a pencil whose rays begin at `begin` or later, in a list of `rays` rays. Throws
-/// InputError without the file name.
+/// Parses a pencil whose first ray is `begin` or later, in a list of `rays` rays. Throws InputError
+/// without the file name.
 accel::Pencil read_pencil(const Json& json, std::uint64_t begin, std::uint64_t rays) {
   const auto whole_number = [&](const char* name) {
     const Json value = json.is_object() ? json.value(name, Json()) : Json();
@@ -240,8 +240,8 @@ class CsvRays : public RayReader::Format {
     for (const std::size_t i : places_) when_empty_.push_back(kWhenEmpty[i]);
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
       if (!std::isnan(kWhenEmpty[i]) || std::ranges::find(places_, i) != places_.end()) continue;
-      throw InputError(fmt::format("{}: column '{}' is missing; only t_min and t_max may be", place,
-                                   kColumns[i]));
+      throw InputError(fmt::format("{}: column '{}' is missing; only t_min and t_max are optional",
+                                   place, kColumns[i]));
     }
     row_.resize(places_.size());
   }
@@ -266,10 +266,9 @@ class CsvRays : public RayReader::Format {
 
  private:
   [[noreturn]] void refuse_columns() const {
-    fail(path_,
-         fmt::format("this is not a file of rays: its first line is neither '{}' nor the names "
-                     "of columns, ox,oy,oz,t_min,dx,dy,dz,t_max",
-                     kFirstLine));
+    fail(path_, fmt::format("this is not a ray file: its first line is neither '{}' nor the column "
+                            "names ox,oy,oz,t_min,dx,dy,dz,t_max",
+                            kFirstLine));
   }
 
   std::filesystem::path path_;

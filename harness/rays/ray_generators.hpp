@@ -30,8 +30,8 @@ struct SurfacePoint {
   std::uint32_t sample;  ///< the sample the ray comes from, as numbered by a HitBuffer of the image
 };
 
-/// Returns the hits of the primary rays, in order, found by the oracle (on all cores), so the rays
-/// that start there are the same for every structure.
+/// Returns the hits of the primary rays, in order, found by the oracle (on all cores), so rays that
+/// start at these points are the same for every structure.
 std::vector<SurfacePoint> surface_points(const scenes::Scene& scene, const MirrorTable& mirrors,
                                          const accel::PrimaryRays& rays);
 inline std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
@@ -47,31 +47,32 @@ std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& poin
 ///
 /// Returns the shadow rays, light by light, from each point that faces the light. The light is at t
 /// = 1, and the rays end slightly before it (`accel::t_before_light`). Each light is a pencil.
-/// Every `per_light` successive points are one light with an extent (`area_lights`): each surface
-/// point that faces any of them sends rays to all of them, and the pencils of the light are a
-/// bundle.
+/// Every `per_light` successive `lights` are the points of one light with an extent
+/// (`area_lights`): a surface point that faces any of them sends rays to all of them, and their
+/// pencils form a bundle.
 RayList shadow_rays(std::span<const scenes::Light> lights, const std::vector<SurfacePoint>& points,
                     std::size_t per_light = 1);
 
 /// Returns rays in the mirror directions of the incoming rays, of unit length.
 RayList reflection_rays(const std::vector<SurfacePoint>& points);
 
-/// Returns these rays only for points on planar mirrors, mirror by mirror. Each mirror is a pencil,
-/// whose rays run away from the image's eye behind it, unless it is seen edge-on
+/// Returns reflection rays only for points on planar mirrors, mirror by mirror. Unless a mirror is
+/// seen edge-on, its rays are a pencil that runs away from the image's eye behind it
 /// (`VirtualEye::behind`).
 RayList mirror_rays(const std::vector<SurfacePoint>& points, const MirrorTable& mirrors,
                     const accel::PrimaryRays& image);
 
-/// Returns one ray per point, of unit length, with density cos / pi about the normal.
+/// Returns one ray per point, with a direction of unit length and density cos / pi about the
+/// normal.
 RayList diffuse_rays(const std::vector<SurfacePoint>& points, std::uint64_t seed);
 
 /// Returns `samples` rays from each point, one after the other, with directions like those of
-/// diffuse rays and t in [0, distance], which is in units of the scene.
+/// diffuse rays and t in [0, distance], in units of the scene.
 RayList occlusion_rays(const std::vector<SurfacePoint>& points, int samples, float distance,
                        std::uint64_t seed);
 
 /// Returns diffuse rays, then diffuse rays from their hits (found by the oracle, on all cores), and
-/// so on for `bounces` times; fewer if all paths have left the scene. The first rays are those of
+/// so on for `bounces` bounces, or until all paths have left the scene. The first rays are those of
 /// `diffuse_rays`.
 RayList path_rays(const scenes::Scene& scene, const MirrorTable& mirrors,
                   std::vector<SurfacePoint> points, int bounces, std::uint64_t seed);

@@ -16,7 +16,7 @@ namespace beambench::rays {
 namespace {
 
 ParameterInfo seed_parameter() {
-  return integer_parameter("seed", 1, 0, std::int64_t{1} << 53, "of the random numbers");
+  return integer_parameter("seed", 1, 0, std::int64_t{1} << 53, "seed of the random numbers");
 }
 
 ParameterInfo order_parameter() {
@@ -61,7 +61,8 @@ const std::vector<RayKindInfo>& all_kinds() {
        {}},
       {RayKind::kShadow,
        "shadow",
-       "from where primary rays hit to each light that the surface faces, light by light; any hit",
+       "from the hits of primary rays to each light that the surface faces, light by light; any "
+       "hit",
        Query::kAnyHit,
        {order_parameter()}},
       {RayKind::kArea, "area",
@@ -90,7 +91,7 @@ const std::vector<RayKindInfo>& all_kinds() {
        Query::kAnyHit, occlusion_parameters()},
       {RayKind::kPath,
        "path",
-       "diffuse paths: 'diffuse' rays, then further ones from where these hit, bounce by bounce",
+       "diffuse paths: 'diffuse' rays, then further rays from their hits, bounce by bounce",
        Query::kClosestHit,
        {integer_parameter("bounces", 4, 1, 64,
                           "scattered rays of a path, including the one from the primary hit"),
@@ -102,7 +103,7 @@ const std::vector<RayKindInfo>& all_kinds() {
        {seed_parameter(), order_parameter()}},
       {RayKind::kWhitted, "whitted",
        "a whole picture: camera, shadow, reflected and refracted rays, which follow from the "
-       "structure's own hits; 'run' and 'verify' verify every one",
+       "structure's own hits; 'run' and 'verify' verify every ray",
        Query::kPicture, whitted_parameters()}};
   return kinds;
 }

@@ -15,7 +15,7 @@ namespace beambench::rays {
 enum class RayKind {
   kPrimary,     ///< from the camera through the pixels
   kShadow,      ///< from the hits of primary rays to the lights
-  kArea,        ///< the same to several points of each light, which has an extent
+  kArea,        ///< from the same hits to several points of each light, which has an extent
   kReflection,  ///< mirrored at the hits of primary rays
   kMirror,      ///< mirrored at the hits of primary rays with planar mirrors
   kDiffuse,     ///< scattered at the hits of primary rays
@@ -34,7 +34,7 @@ inline constexpr int kMaxPictureBatch = 1 << 19;
 enum class Query {
   kClosestHit,
   kAnyHit,  ///< whether there is any hit
-  kPicture  ///< both, in batches, for a whole picture
+  kPicture  ///< closest-hit and any-hit queries, in batches, for a whole picture
 };
 std::string_view to_string(Query query);  // "closest", "any", "picture"
 
@@ -53,11 +53,11 @@ std::span<const RayKindInfo> ray_kinds();
 const RayKindInfo& info_of(RayKind kind);
 std::string_view to_string(RayKind kind);
 
-/// The extensions that distinguish a file of rays from the name of a kind.
+/// The extensions that distinguish a ray file from the name of a kind.
 inline constexpr std::string_view kRayFileEnding = ".rays";
 inline constexpr std::string_view kCsvEnding = ".csv";
 
-/// Returns whether a text names a file of rays, judging by its extension.
+/// Returns whether a string names a ray file, judging by its extension.
 inline bool is_ray_file(std::string_view text) {
   return text.ends_with(kRayFileEnding) || text.ends_with(kCsvEnding);
 }
@@ -65,7 +65,7 @@ inline bool is_ray_file(std::string_view text) {
 /// The user's choice of rays: a kind with its parameters, or a file.
 struct RayChoice {
   RayKind kind = RayKind::kPrimary;  ///< for a file: whatever was saved
-  std::uint64_t seed = 0;            ///< for a random kind; 0 for the others
+  std::uint64_t seed = 0;            ///< for a random kind; 0 for other kinds
   bool is_sorted = false;            ///< a list that is not in the order of generation
   std::filesystem::path file{};      ///< empty: the rays are generated
   /// The name in records and commands: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's name
@@ -92,7 +92,7 @@ OrderedLabel divide_label(const std::string& label);
 
 /// Returns the values of a choice's parameters; there are none for a file.
 Parameters parameters_of(const RayChoice& choice);
-/// Parses a comma-separated list, with each choice at most once. Throws what parse_ray_choice
+/// Parses a comma-separated list; repeated choices are kept once. Throws what parse_ray_choice
 /// throws.
 std::vector<RayChoice> parse_ray_choices(std::string_view list);
 

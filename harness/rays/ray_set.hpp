@@ -18,8 +18,9 @@ namespace beambench::rays {
 /// A batch, and the objects that it refers to.
 struct RayList {
   std::vector<accel::Ray> rays{};
-  std::vector<std::uint32_t> samples{};  ///< of each ray; empty if they do not come from an image
-  std::shared_ptr<const accel::PrimaryRays> image{};  ///< the image that they come from
+  std::vector<std::uint32_t>
+      samples{};  ///< of each ray; empty if the rays do not come from an image
+  std::shared_ptr<const accel::PrimaryRays> image{};  ///< the image that the rays come from
   std::vector<accel::Pencil> pencils{};
   std::vector<std::shared_ptr<const accel::PrimaryRays>> views{};  ///< the views of pencils
   accel::BatchMarks marks{};
@@ -30,12 +31,13 @@ struct RayList {
   }
 };
 
-/// Rays, the query for them, and their origin.
+/// Rays, the query for them, and how they were made.
 struct RaySet : RayList {
   std::string label{};  ///< the name in records and commands (`RayChoice::label`)
   Query query = Query::kClosestHit;
-  std::uint64_t seed = 0;                     ///< 0 if nothing is random
-  std::optional<std::uint64_t> scene_hash{};  ///< hash of the scene they were made for, if known
+  std::uint64_t seed = 0;  ///< 0 if nothing is random
+  std::optional<std::uint64_t>
+      scene_hash{};        ///< of the scene that the rays were made for, if known
   bool may_graze = false;  ///< aimed at edges and corners: any number of grazes is allowed
   bool must_hit = false;   ///< from inside a closed surface: a ray that misses it has leaked
 };

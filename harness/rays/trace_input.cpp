@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int64_t kMaxRays = std::int64_t{1} << 28;
 
-/// Parses the whole text as a side of an image.
+/// Parses the whole string as the side of an image.
 std::optional<int> parse_side(std::string_view text) {
   int value = 0;
   const char* end = text.data() + text.size();

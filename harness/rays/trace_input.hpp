@@ -33,8 +33,8 @@ Resolution parse_resolution(std::string_view text);
 /// Returns `640x480`.
 std::string to_string(const Resolution& resolution);
 
-/// Throws InputError if the image has more samples than a buffer may hold (2^28); the message says
-/// what to lower.
+/// Throws InputError if the image has more samples than a buffer may hold (2^28); the message names
+/// the values to lower.
 void require_ray_count(const Resolution& resolution, int samples);
 
 /// The position of a primary ray in its image.

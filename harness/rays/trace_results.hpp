@@ -29,9 +29,9 @@ void poison(accel::HitBuffer& hits);
 /// Returns whether the result at an index is a hit. A poisoned result counts as a hit.
 bool is_hit_at(const TraceResults& results, std::size_t index);
 
-/// Returns whether a structure supports an image, or lists of rays.
+/// Returns whether a structure supports the kind of input: an image, or a list of rays.
 bool is_supported(const accel::StructureChoice& choice, const TraceInput& input);
-/// Throws UnsupportedError if the structure does not support them.
+/// Throws UnsupportedError if the structure does not support it.
 void require_support(const accel::StructureChoice& choice, const TraceInput& input);
 
 /// Traces the rays through a structure. `results` must have the shape that `make_results` returns.

@@ -53,13 +53,15 @@ class MirrorTable : public PlaneTable {
 struct VirtualEye {
   explicit VirtualEye(accel::PrimaryRays image) : place(image.eye()), view(std::move(image)) {}
 
-  /// Returns the eye of the rays that a mirror reflects. They begin slightly beside it, so their
-  /// lines pass through the eye's image, moved by the same distance (`accel::mirror_lift`). Returns
-  /// nothing for a mirror seen edge-on, because rounding decides on which side a ray meets it.
+  /// Returns the eye of the rays that a mirror reflects. They begin slightly beside the mirror, so
+  /// their lines pass through the eye's mirror image, moved by the same distance
+  /// (`accel::mirror_lift`). Returns nothing for a mirror seen edge-on, because rounding decides on
+  /// which side a ray meets it.
   std::optional<VirtualEye> behind(const scenes::PlanarSurface& mirror) const;
 
   glm::dvec3 place;
-  /// The image seen from this eye, up to rounding: its eye is a float, and is not moved.
+  /// The image seen from this eye, up to rounding: the view's own eye is stored in float, and is
+  /// not moved by the lift.
   accel::PrimaryRays view;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures that show how a structure's hits differ from others, or how much work it does.
+// Pictures that show how a structure's hits differ from a reference, or how much work it does.
 
 #include <array>
 #include <cstddef>

@@ -9,7 +9,7 @@
 
 namespace beambench::render {
 
-/// One entry for each shadow ray.
+/// The shadow rays of one light; each vector has one element for each ray.
 struct LightPencil {
   std::vector<accel::Ray> rays;          ///< from the surface; the light is at t = 1
   std::vector<std::uint32_t> samples;    ///< of the image, as numbered by a HitBuffer

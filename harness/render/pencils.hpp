@@ -32,7 +32,7 @@ enum class Turn { kReflected, kRefracted };
 
 /// Groups the rays that leave planes in a part of a wave, by the eye before the plane and by the
 /// plane. Each group with enough rays is marked, as a pencil or as refracted rays; the other rays
-/// come last. Rays stay in order within their group, and so do those without a group.
+/// come last. Rays stay in order within their group, and so do rays without a group.
 class PlaneGroups {
  public:
   /// Groups rays through `eyes`, the camera's or those of the wave. All arguments must outlive this
@@ -42,7 +42,7 @@ class PlaneGroups {
   PlaneGroups& operator=(const PlaneGroups&) = delete;
   ~PlaneGroups() = default;
 
-  /// Adds the next ray, which comes from `eye` and is turned by a primitive.
+  /// Adds the next ray: it comes from `eye` and was reflected or refracted by `primitive`.
   void add(EyeIndex eye, scenes::PrimitiveId primitive) {
     if (groups_.empty()) return;
     const std::uint32_t plane = planes_->plane_of(primitive);

@@ -75,7 +75,7 @@ struct LightAngles {
 /// The computations for one instruction set.
 struct PlaceKernels {
   /// Computes the members of `Places` from points, lifts, and directions and normals of any length
-  /// on either side; an undefined normal is turned against the ray.
+  /// on either side; an undefined normal is replaced by the direction opposite to the ray.
   void (*complete)(Places& places);
   void (*find_angles)(const Places& places, const glm::dvec3& light, LightAngles& angles);
 };

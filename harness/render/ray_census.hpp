@@ -15,13 +15,13 @@ struct RayCensus {
   std::uint64_t eye_hits = 0;
   std::uint64_t reflected = 0;
   std::uint64_t refracted = 0;
-  std::uint64_t totally_reflected = 0;  ///< those of the reflected that replace a refracted ray
+  std::uint64_t totally_reflected = 0;  ///< reflected rays that replace a refracted ray
   std::uint64_t secondary_hits = 0;     ///< hits of reflected and refracted rays
   std::uint64_t too_faint = 0;          ///< not traced: too small a share of the pixel's color
   std::uint64_t shadow = 0;             ///< pairs of a point and a light that it faces
-  std::uint64_t shadow_hidden = 0;      ///< those whose light is hidden by an opaque surface
-  std::uint64_t shadow_cached = 0;      ///< those of the hidden that the shadow cache found
-  std::uint64_t shadow_listed = 0;      ///< all shadow rays that the light buffer decided
+  std::uint64_t shadow_hidden = 0;      ///< shadow rays whose light an opaque surface hides
+  std::uint64_t shadow_cached = 0;      ///< hidden shadow rays found by the shadow cache
+  std::uint64_t shadow_listed = 0;      ///< shadow rays decided by the light buffer
   std::uint64_t shadow_tests = 0;       ///< ray-primitive tests of cache and light buffer
   std::uint64_t shadow_queries = 0;     ///< closest-hit and any-hit queries for shadow rays
 

@@ -14,7 +14,7 @@
 
 namespace beambench::render {
 
-/// The scene must outlive this object.
+/// Data for shading a scene, which must outlive this object.
 class ShadedScene {
  public:
   explicit ShadedScene(const scenes::Scene& scene);

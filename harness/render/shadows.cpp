@@ -242,7 +242,7 @@ double Shadows::asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& 
     ++census.shadow_queries;
     if (!structure_->any_hit(to_light, nullptr)) return 1.0;
   }
-  return followed(to_light, last, census);  // any_hit does not say which primitive was hit
+  return followed(to_light, last, census);  // any_hit does not return the primitive
 }
 
 double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
@@ -289,7 +289,7 @@ std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size
   return parts;
 }
 
-/// Follows one ray; if an opaque surface ends it, that becomes the `blocker`.
+/// Follows one ray; if an opaque surface ends it, its primitive becomes the `blocker`.
 double Shadows::followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus& census) const {
   double part = 1.0;
   while (ray.t_min <= ray.t_max) {

@@ -1,5 +1,5 @@
 #pragma once
-// Options for the depth of a picture's rays, and its shadow rays.
+// Options for a picture's ray depth and shadow rays, and the tracing of shadow rays.
 
 #include <cstddef>
 #include <cstdint>
@@ -58,8 +58,8 @@ WhittedOptions whitted_options(const rays::RayChoice& choice);
 /// primitives that the ray can meet, so the result is the same as with all primitives.
 class LightBuffer {
  public:
-  /// `cells` is the number along an edge of the cube, at least 1. The scene must outlive the
-  /// buffer.
+  /// `cells` is the number of cells along an edge of the cube, at least 1. The scene must outlive
+  /// the buffer.
   LightBuffer(const scenes::Scene& scene, const glm::vec3& light, int cells);
 
   enum class Visibility {
@@ -89,7 +89,7 @@ class LightBuffer {
 
 /// The opaque primitive that last hid each light, for each depth of rays (as in the ray tracer
 /// OORT; Wilt, Object-Oriented Ray Tracing in C++, 1994): neighboring points are mostly hidden by
-/// the same one.
+/// the same primitive.
 struct ShadowCache {
   ShadowCache(std::size_t lights, int depths)
       : last(lights * static_cast<std::size_t>(depths), scenes::kNoPrimitive) {}

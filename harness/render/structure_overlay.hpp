@@ -34,8 +34,8 @@ OverlayChoice parse_overlay(std::string_view text, const accel::StructureInfo& s
 /// Throws InputError if the scene does not have that light.
 void require_light(const OverlayChoice& choice, const scenes::Scene& scene);
 
-/// Draws over the picture of an image that has been traced, so a grid that rays fill shows the
-/// cells that they filled. Returns the legend.
+/// Draws over the picture of an image that has been traced, so a grid filled on demand shows the
+/// cells that the rays filled. Returns the legend.
 std::vector<LegendEntry> draw_overlay(const OverlayChoice& choice, Image& picture,
                                       const accel::Accelerator& accelerator,
                                       const scenes::Scene& scene, const accel::PrimaryRays& rays);

@@ -76,7 +76,7 @@ dvec3 marble(const dvec3& p, const dvec3& stone, const dvec3& vein) {
   return glm::clamp(glm::mix(stone * (1.0 + cloud), vein, vein_share), 0.0, 1.0);
 }
 
-/// Grains of two kinds of stone in a third one.
+/// Grains of two kinds of stone in a third kind.
 dvec3 granite(const dvec3& p, const dvec3& mean) {
   const double dark = smooth_step(0.05, 0.25, fractal_noise(6.0 * p, 3));
   const double light = smooth_step(0.1, 0.3, fractal_noise(5.0 * p + dvec3(17.0), 3));

@@ -1,5 +1,5 @@
 #pragma once
-// Verifies a whole picture: it is correct if every result that it depends on is.
+// Verifies a whole picture: it is correct if every result that it depends on is correct.
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ struct AskedRays {
   std::vector<std::uint8_t> any_hits;  ///< of the rays in `any`
 };
 
-/// Keeps all rays and results of a structure. Not thread-safe.
+/// Forwards queries to a structure and records all rays and results. Not thread-safe.
 class RecordedQueries : public accel::ForwardingAccelerator {
  public:
   /// Both arguments must outlive this object.
@@ -46,8 +46,8 @@ class RecordedQueries : public accel::ForwardingAccelerator {
   AskedRays* asked_;
 };
 
-/// Returns recorded results for the same queries in the same order, so that the measured time
-/// excludes the structure. Not thread-safe.
+/// A structure that returns recorded results for the same queries in the same order, so that
+/// measured times exclude tracing. Not thread-safe.
 class ReplayedResults : public accel::Accelerator {
  public:
   /// `asked` must outlive this object.

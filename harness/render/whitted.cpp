@@ -30,7 +30,8 @@ dvec3 mirrored_outward(const dvec3& incoming, const dvec3& shading, const dvec3&
   return glm::dot(direction, geometric) > 0.0 ? direction : accel::mirrored(incoming, geometric);
 }
 
-/// Returns a refracted direction on the inner side of the surface, likewise.
+/// Returns a refracted direction on the inner side of the surface, which a shading normal may also
+/// miss.
 std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shading,
                                       const dvec3& geometric, double ratio) {
   const auto direction = refracted(incoming, shading, ratio);
@@ -38,7 +39,7 @@ std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shadin
   return outward ? refracted(incoming, geometric, ratio) : direction;
 }
 
-/// Constructed in place: copying a newly made ray would wait until it is in memory.
+/// Adds a ray, constructed in place: copying a newly made ray would wait until it is in memory.
 accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dvec3& direction) {
   accel::Ray& ray = rays.emplace_back();
   ray.origin = glm::vec3(origin);
@@ -55,7 +56,7 @@ accel::HitBuffer traced(const accel::Accelerator& structure, const accel::RayBat
   return hits;
 }
 
-/// Takes the next mirror ray or the next glass ray, for each ray in turn.
+/// Merges the values of mirror rays and of glass rays in the order of the wave.
 template <class Value>
 std::vector<Value> merged(std::vector<Value> mirrors, const std::vector<Value>& glasses,
                           const std::vector<bool>& is_glass) {

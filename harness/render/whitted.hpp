@@ -21,7 +21,8 @@
 
 namespace beambench::render {
 
-/// The structure for each kind of rays: the same for all, or others that observe its queries.
+/// The structure for each kind of rays: the same for all kinds, or wrappers that observe its
+/// queries.
 struct RayStructures {
   const accel::Accelerator* reflected;
   const accel::Accelerator* refracted;
@@ -48,12 +49,12 @@ struct CameraRays {
 ///
 /// Rays are traced in waves (an idea of Laine, Karras and Aila, "Megakernels considered harmful",
 /// HPG 2013, for other hardware): the camera rays of a part of the picture, then from their hits
-/// all shadow rays of each light, all mirror rays and all refracted rays, and the same for the hits
-/// of these. So a structure receives batches. The shadow rays of a light are a pencil, and so are
-/// mirror rays through one virtual eye: those that come from the camera via planar mirrors only,
-/// any number of them. Rays from the camera via planes of which one refracted them are marked as
-/// such. A sample's light is summed in the order of recursive ray tracing, whatever the parts and
-/// batches.
+/// all shadow rays of each light, all mirror rays and all refracted rays, and so on from the hits
+/// of these rays. So a structure receives batches. The shadow rays of a light are a pencil, and so
+/// are mirror rays through one virtual eye, which come from the camera via planar mirrors only.
+/// Rays that a plane has refracted, and that came from the camera via planes only, are marked as
+/// refracted rays. A sample's light is summed in the order of recursive ray tracing, whatever the
+/// parts and batches.
 class Whitted {
  public:
   /// Scene and structure must outlive this object. `check` names the structure in its errors.

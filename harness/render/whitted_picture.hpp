@@ -68,9 +68,9 @@ ShadingOrder parse_shading_order(std::string_view name);
 /// Returns the places in the hit buffer of all samples along the rows.
 std::vector<std::size_t> scan_order(const accel::PrimaryRays& rays);
 
-/// Returns the same places in the order of beams: those of one beam together, along the rows; then
-/// those not in any beam at an occupied leaf. Throws InputError for a structure that does not trace
-/// beams.
+/// Returns the same places in the order of beams: the places of each beam together, along the rows;
+/// then the places in no beam that ends at an occupied leaf. Throws InputError for a structure that
+/// does not trace beams.
 std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
                                     const accel::PrimaryRays& rays);
 

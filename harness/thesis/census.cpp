@@ -17,8 +17,8 @@
 namespace beambench::thesis {
 namespace {
 
-/// Returns the hits of primary rays, from the structure's own query for images, or one by one at
-/// the corners of pixels.
+/// Returns the hits of primary rays: from one query for the image or, for rays through the corners
+/// of pixels, from single rays.
 accel::HitBuffer primary_hits(const accel::Accelerator& structure, const accel::PrimaryRays& rays,
                               const accel::PrimaryRays* image) {
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());

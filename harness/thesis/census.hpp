@@ -39,7 +39,7 @@ struct FullPicture {
 /// Facts about a structure, and its work over all rays of a picture.
 struct StructureWork {
   accel::Statistics statistics;
-  QueryWork queries;  ///< shadow rays: up to their first hit (`CountedShadows`)
+  QueryWork queries;  ///< of shadow rays, only up to their first hit (`CountedShadows`)
 };
 
 /// The rays and times of one picture.
@@ -57,8 +57,8 @@ struct CensusResult {
   render::Image picture;
 };
 
-/// Draws the picture, and again with all rays if `min_weight` is positive. `progress` gets one cell
-/// for each picture. Throws rays::InvalidHit.
+/// Draws the picture and, if `min_weight` is positive, draws it again with all rays. `progress`
+/// gets one cell for each picture. Throws rays::InvalidHit.
 CensusResult take_census(const accel::StructureChoice& choice, const scenes::Scene& scene,
                          const rays::ImageOfRays& image, const CensusOptions& options,
                          base::Progress& progress);

@@ -1,5 +1,5 @@
 #pragma once
-// Counts the work of a picture's shadow rays; sits between the rays and the structure.
+// Counts the work of a picture's shadow rays, between the tracer and the structure.
 
 #include "harness/rays/counted_queries.hpp"
 
@@ -8,9 +8,9 @@ namespace beambench::thesis {
 using rays::CountedQueries;
 using rays::QueryWork;
 
-/// Counts the work of shadow rays up to the first object that hides the light, as any-hit queries,
-/// as published counts do. If that object is or may be glass, uses closest hits and continues the
-/// ray behind it without counting.
+/// Counts the work of shadow rays up to the first object that hides the light, traced as any-hit
+/// queries, as in published counts. If that object may be glass, uses closest hits and continues
+/// the ray behind it without counting.
 class CountedShadows : public CountedQueries {
  public:
   using CountedQueries::CountedQueries;

@@ -47,7 +47,7 @@ MirrorResult compare(const accel::beam::BeamTracer& tracer, const accel::RayBatc
   return result;
 }
 
-/// The rays that a plane of glass transmits.
+/// The rays that one plane of glass transmits.
 struct GlassView {
   std::vector<accel::Ray> rays;
   std::vector<std::uint32_t> samples;

@@ -1,5 +1,5 @@
 #pragma once
-// Traces what planar mirrors and planar glass show, with beams and with individual rays.
+// Traces the views in planar mirrors and through planar glass, with beams and with individual rays.
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ inline constexpr std::array<int, 6> kIncidence{15, 30, 45, 60, 75, 90};
 struct GlassResult : MirrorResult {
   struct Class {
     std::size_t samples = 0;
-    std::size_t alone = 0;  ///< traced outside any beam
+    std::size_t alone = 0;  ///< rays traced outside any beam
   };
   std::array<Class, kIncidence.size()> by_angle{};
 

@@ -44,7 +44,8 @@ double contrast_at(const render::Image& image, int x, int y) {
   return largest;
 }
 
-/// Marks the samples chosen for each pixel, and lists those beyond the first.
+/// Marks the samples chosen for each pixel, and lists the chosen samples except the first of each
+/// pixel.
 std::vector<std::size_t> choose(const render::Image& image, const SamplingContrast& contrast,
                                 accel::beam::SparseSamples& samples) {
   std::vector<std::size_t> more;

@@ -13,10 +13,10 @@
 
 namespace beambench::thesis {
 
-/// Thresholds for the contrast between pixels: the largest difference of a channel's display
-/// values, 0 to 1.
+/// Thresholds for the contrast between pixels: the largest difference in a channel's display
+/// values, from 0 to 1.
 struct SamplingContrast {
-  double few = 0.05;   ///< to one of the four neighbors: threshold for 5 samples instead of 1
+  double few = 0.05;   ///< threshold for 5 samples, of the contrast to any of the four neighbors
   double many = 0.30;  ///< threshold for 25 samples
 };
 
@@ -31,8 +31,8 @@ accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& trac
                                              const SamplingContrast& contrast);
 
 /// Draws the picture of sparse samples, in the colors of `Shading::kPreview`. Each of a pixel's n
-/// samples represents 1/n of the pixel. The rest of the pixel is background. If the parts exceed
-/// the pixel, because leaves with different n meet there, they are scaled to fit.
+/// samples represents 1/n of the pixel. Any remaining part of the pixel is background. If the parts
+/// exceed the pixel, because leaves with different n meet in it, the parts are scaled down to fit.
 render::Image sparse_image(const scenes::Scene& scene, const accel::PrimaryRays& rays,
                            const accel::beam::SparseSamples& samples);
 
@@ -40,12 +40,12 @@ render::Image sparse_image(const scenes::Scene& scene, const accel::PrimaryRays&
 struct SamplingResult {
   std::string method;   ///< `uniform`, `object-space` or `image-space`
   std::string setting;  ///< samples per pixel, or the thresholds for 5 and 25 samples
-  double rays;          ///< per pixel, on average; samples of leaving beams need none
-  double trace_ms;      ///< tracing and choosing, without the final shading; median
+  double rays;          ///< per pixel, on average; samples of leaving beams need no rays
+  double trace_ms;      ///< median time of tracing and choosing, without the final shading
   double error;         ///< RMS error on a 0-255 scale against 64 samples per pixel
 };
 
-/// Returns the number of cells that `compare_sampling` reports to its progress.
+/// Returns the number of steps (`Progress` cells) that `compare_sampling` reports.
 std::size_t sampling_steps();
 
 /// Traces the image with uniform, object-space and image-space sampling at several settings, each

@@ -26,7 +26,8 @@ namespace {
 
 constexpr std::size_t kReferencesAtOnce = std::size_t{1}
                                           << 16U;  // rays whose reference is in memory at once
-// As in the differ's exact search: if there are enough errors or tests, the rest is presumed.
+// As in the differ's exact search: after this many faults or tests, further disputes are presumed
+// to be faults.
 constexpr std::uint64_t kEnoughFaults = 64;
 constexpr std::uint64_t kPrimitiveBudget = 400'000'000;  // primitives
 
@@ -34,8 +35,8 @@ constexpr std::string_view kBesideRay = "the point does not lie on the ray";
 constexpr std::string_view kOutsideInterval = "t is outside of the ray's interval";
 constexpr std::string_view kNowhere = "there is no surface at this place";
 constexpr std::string_view kNotSearched =
-    "the oracle hits another place, and no surface was searched for here since enough faults or "
-    "tests were counted before";
+    "the oracle hits another place, and no surface was searched for here because enough faults or "
+    "tests had already been counted";
 
 /// Returns the ids of a claim, of primitives or triangles; empty if unknown.
 std::span<const std::uint32_t> ids_of(const rays::ClaimedHits& hits) {
@@ -78,7 +79,7 @@ void require_valid_claim(const scenes::Scene& scene, const rays::ClaimedHits& hi
     std::swap(what, other);
   }
   if (ids[i] >= known) {
-    // Polygons of several triangles, or spheres and cones, make the two differ.
+    // Polygons of several triangles, or spheres and cones, make the two kinds of ids differ.
     refuse(fmt::format("there is no {} {}: {}{}", what, ids[i],
                        known == 0 ? std::string("the scene has none")
                                   : fmt::format("the scene's are 0 to {}", known - 1),
@@ -97,7 +98,8 @@ struct Answer {
   std::string_view fault{};
 };
 
-/// Moves a t near an end of the interval into it: t follows from the point by our own division.
+/// Moves a t near an end of the interval into it, because t was computed from the point by our own
+/// division.
 float within(const accel::Ray& ray, double t, double length, double near) {
   if (t < ray.t_min && (ray.t_min - t) * length <= near) return ray.t_min;
   if (t > ray.t_max && (t - ray.t_max) * length <= near) return ray.t_max;
@@ -178,8 +180,8 @@ struct ClaimVerifier::State {
     verified += block.size();
   }
 
-  /// Returns an oracle whose boxes are padded for rays from that distance. Powers of two, so that a
-  /// few builds suffice for any rays.
+  /// Returns an oracle whose boxes are padded for rays from that distance, rounded up to a power of
+  /// two so that a few builds suffice for any rays.
   const accel::oracle::Oracle& oracle_for(double reach) {
     if (!oracle || reach > oracle_reach) {
       const double least = std::max<double>(reach, scene.bounds.largest_coordinate());
@@ -190,7 +192,7 @@ struct ClaimVerifier::State {
   }
 
   /// Finds the primitive at the claim's place: the oracle's if it lies there, otherwise the first
-  /// of the nearest.
+  /// of the nearest primitives.
   void find_primitive(const accel::Ray& ray, const std::optional<accel::oracle::ExactHit>& expected,
                       Answer& answer) {
     const auto contact_with = [&](scenes::PrimitiveId id) {
@@ -226,7 +228,7 @@ struct ClaimVerifier::State {
   bool must_hit = false;
   std::size_t verified = 0;        ///< rays
   std::uint64_t faults_found = 0;  ///< by searching for a surface
-  std::uint64_t searched = 0;      ///< primitives
+  std::uint64_t searched = 0;      ///< number of primitives
 };
 
 ClaimVerifier::ClaimVerifier(const scenes::Scene& scene, OnMismatch on_mismatch)

@@ -16,8 +16,8 @@
 
 namespace beambench::verify {
 
-/// Thrown for a number that is impossible for a hit or ray. `what()` is the fault without its
-/// place.
+/// Thrown for a number that is impossible for a hit or ray. `what()` describes the fault without
+/// its place.
 class InvalidClaim : public InputError {
  public:
   InvalidClaim(std::size_t index, const std::string& fault) : InputError(fault), index(index) {}
@@ -25,7 +25,7 @@ class InvalidClaim : public InputError {
   std::size_t index;  ///< of the ray, counted over all parts
 };
 
-/// The differ for hits from outside. Each ray gets one of the classes of `DiffClass`;
+/// The differ for hits from other programs. Each ray gets one of the classes of `DiffClass`;
 /// `kStructureError` means that the program is wrong. t and points are compared as floats; a point
 /// must lie within K u of the ray. If no primitive is given, it is the one on which the point lies,
 /// or the oracle's if it lies on several.
@@ -45,14 +45,15 @@ class ClaimVerifier {
   ClaimVerifier(ClaimVerifier&&) noexcept;
   ClaimVerifier& operator=(ClaimVerifier&&) = delete;
 
-  /// Applies the `may_graze` and `must_hit` of a file of rays.
+  /// Applies the `may_graze` and `must_hit` of a ray file.
   void judge_as(const rays::RaySet& rays);
 
   /// Verifies the next rays, all parts in the same form, on all cores. Writes the class of each ray
-  /// to `classes` unless that is empty. Throws InvalidClaim for a ray that `require_valid` refuses,
-  /// NaN in t or a point, an id that is not in the scene, a primitive without t or point and vice
-  /// versa, and `occluded` other than 0 and 1; in these cases, none of the part counts. Throws
-  /// std::logic_error as `ClaimedHits::size`, and if the numbers of rays, hits and classes differ.
+  /// to `classes` unless that is empty. Throws InvalidClaim for an invalid ray (`require_valid`),
+  /// NaN in t or a point, an id that is not in the scene, a primitive at an infinite place, and
+  /// values of `occluded` other than 0 and 1; nothing of this part is then counted. Throws
+  /// std::logic_error if `ClaimedHits::size` does, and if the numbers of rays, hits and classes
+  /// differ.
   void add(std::span<const accel::Ray> rays, const rays::ClaimedHits& hits,
            std::span<DiffClass> classes = {});
 

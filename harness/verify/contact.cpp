@@ -250,8 +250,8 @@ std::vector<Approach> cone_approaches(const RayLine& line, const scenes::Cone& c
   return found;
 }
 
-/// Returns the distance of the line from a rim near a point: from the rim's point nearest to that,
-/// or less if the line comes closer to the rim at one place with the point.
+/// Returns the line's distance from a rim near `point`: its distance from the rim's point nearest
+/// to `point`, or less if the line comes closer to the rim at one place with `point`.
 Real rim_distance(const RayLine& line, const Profile& profile, const Vector& point, Real rim,
                   double tolerance) {
   Real nearest = line.distance_to(profile.rim_point(point, rim));

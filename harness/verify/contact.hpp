@@ -49,7 +49,7 @@ struct Approach {
 std::vector<Approach> approaches(const scenes::Scene& scene, const accel::Ray& ray,
                                  scenes::PrimitiveId primitive);
 
-/// Returns the smallest distance of all approaches; infinite without any.
+/// Returns the smallest distance of all approaches; infinite if there are none.
 double boundary_distance(const scenes::Scene& scene, const accel::Ray& ray,
                          scenes::PrimitiveId primitive);
 

@@ -58,7 +58,7 @@ std::string answer_text(const scenes::Scene& scene, const Mismatch& mismatch) {
   return mismatch.any_hit_answer == 1 ? "some hit" : "no hit";
 }
 
-/// Returns the name of its class, or "leak".
+/// Returns the name of the mismatch's class, or "leak".
 std::string_view name_among(std::span<const std::string_view> names, const Mismatch& mismatch) {
   return mismatch.leaked ? "leak" : names[static_cast<std::size_t>(mismatch.diff_class)];
 }

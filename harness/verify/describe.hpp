@@ -21,7 +21,8 @@ namespace beambench::verify {
 class ReplayCommand {
  public:
   /// `program` is the command for the program with its plug-ins (`plugin::program_call`); `image`
-  /// is the image from which the rays come, primary or not; `frame` is that of a scene that moves.
+  /// is the image from which the rays come, primary or not; `frame` is the frame of an animated
+  /// scene.
   ReplayCommand(std::string_view program, const scenes::Scene& scene,
                 const rays::ImageOfRays& image, const accel::StructureChoice& structure,
                 const rays::TraceInput& input, std::uint32_t frame = 0);
@@ -47,7 +48,7 @@ std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay);
 
-/// Returns the same as JSON: index, class, reason, ray, and the hits; `reported` is the result.
+/// Returns a mismatch as JSON: index, class, reason, ray, and the hits; `reported` is the result.
 nlohmann::ordered_json to_json(const Mismatch& mismatch);
 
 }  // namespace beambench::verify

@@ -21,8 +21,8 @@ constexpr std::uint64_t kEnoughErrors = 64;
 constexpr std::uint64_t kTestBudget = 400'000'000;  // primitive tests
 constexpr std::size_t kBatch = 64;                  // rays searched at once, on all cores
 
-/// Runs a parallel loop on all cores in the caller's floating-point mode. By default it would run
-/// in that of the thread's first loop, which may be Embree's, where denormals count as 0.
+/// Runs a parallel loop on all cores in the caller's floating-point mode. By default, it would run
+/// in the mode of the thread's first loop, which may be Embree's, where denormals count as 0.
 template <class Range, class Body>
 void on_all_cores(const Range& range, const Body& body) {
   tbb::task_group_context mode(
@@ -72,7 +72,7 @@ int rank(const Mismatch& mismatch) {
 
 }  // namespace
 
-/// Compares one part.
+/// The comparison of one part.
 class Differ::Part {
  public:
   Part(Differ& differ, const ReferenceHits& reference, const rays::TraceResults& results,
@@ -134,8 +134,8 @@ class Differ::Part {
     return is_miss(answer(std::get<accel::HitBuffer>(results_), i));
   }
 
-  /// Returns true for nearly every ray of a correct structure: the same primitive, and so close
-  /// that the angle of incidence does not matter.
+  /// Returns whether the result is on the oracle's primitive, so close that the angle of incidence
+  /// does not matter: true for nearly every ray of a correct structure.
   bool agrees_at_once(std::size_t i) const {
     if (const auto* any = std::get_if<rays::AnyHits>(&results_)) {
       return (*any)[i] == (hits_[i] ? 1 : 0);
@@ -161,7 +161,8 @@ class Differ::Part {
     return found;
   }
 
-  /// Applies rule 4, batch by batch, so that the result does not depend on the number of threads.
+  /// Classifies disputes by exact arithmetic, batch by batch, so that the result does not depend on
+  /// the number of threads.
   void search(const std::vector<std::size_t>& disputed) {
     std::vector<Mismatch> batch;
     for (std::size_t first = 0; first < disputed.size(); first += kBatch) {
@@ -184,7 +185,8 @@ class Differ::Part {
 
   static void presume_error(Mismatch& found) {
     found.diff_class = DiffClass::kStructureError;
-    found.reason = "disputed, and not searched since enough errors or tests were counted before";
+    found.reason =
+        "disputed, and not searched because enough errors or tests had already been counted";
   }
 
   std::uint64_t& count_of(DiffClass diff_class) {

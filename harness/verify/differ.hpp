@@ -55,7 +55,7 @@ class ReferenceHits {
 
 /// Compares results with the oracle's hits, in parts if there are too many for memory at once.
 /// Disputed rays are judged by exact arithmetic until 64 errors are found or the search has made
-/// 4e8 primitive tests; disputes beyond that count as structure errors without proof.
+/// 4e8 primitive tests; later disputes count as structure errors without verification.
 class Differ {
  public:
   /// Receives every ray whose class is not kAgree.
@@ -67,9 +67,9 @@ class Differ {
       : conformance_(conformance), on_mismatch_(std::move(on_mismatch)) {}
 
   /// Compares the next rays; all parts must be over one scene. Writes the class of each ray to
-  /// `classes` unless that is empty. `faults`, unless empty, states for each ray why its result is
-  /// wrong, if that is already known, or nothing. Throws std::logic_error if the results, classes
-  /// or faults do not have the shape of the input.
+  /// `classes` unless that is empty. `faults`, unless empty, gives the reason for each ray whose
+  /// result is already known to be wrong, and nothing for other rays. Throws std::logic_error if
+  /// the results, classes or faults do not have the shape of the input.
   void compare(const ReferenceHits& reference, const rays::TraceResults& results,
                std::span<DiffClass> classes = {}, std::span<const std::string_view> faults = {});
 

@@ -1,7 +1,7 @@
 #pragma once
 // Finds where rays cross primitives by exact arithmetic, to settle disputes. Shares no code with
-// structures and oracle. Slow: 20 ns for each primitive, and 10 us for each whose box the ray
-// reaches.
+// the structures or the oracle. Slow: 20 ns for each primitive, and 10 us for each whose box the
+// ray reaches.
 
 #include <vector>
 
@@ -20,12 +20,12 @@ struct Crossing {
   accel::oracle::ExactHit hit() const { return {t, primitive}; }
 };
 
-/// Returns the primitives whose boxes the ray reaches, in ascending order. They include all that it
-/// crosses, and all whose boundary, or whose crossing just beyond an end of the interval, is within
-/// the judge's tolerance.
+/// Returns the primitives whose boxes the ray reaches, in ascending order. They include all
+/// primitives that it crosses, and all whose boundary, or whose crossing just beyond an end of the
+/// interval, is within the judge's tolerance.
 std::vector<scenes::PrimitiveId> primitives_near(const scenes::Scene& scene, const accel::Ray& ray);
 
-/// Returns where the line of the ray, without ends, crosses one primitive, in any order. Floats are
+/// Returns the crossings of the ray's infinite line with one primitive, in any order. Floats are
 /// treated as exact numbers, and integers decide whether there is a crossing. Polygons are closed
 /// triangles, seen from both sides; a ray in a triangle's plane does not cross it. A sphere or cone
 /// that the ray only touches is crossed twice, at one place.

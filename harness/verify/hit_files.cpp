@@ -51,7 +51,7 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
     const std::size_t hit_count =
         hit_reader.read(ray_count < kRaysAtOnce ? ray_count + 1 : ray_count, table);
     if (hit_count < ray_count) {
-      // The rays are counted to their end for the message.
+      // The remaining rays are counted for the message.
       std::uint64_t all = verified + ray_count;
       while (const std::size_t more = ray_reader.read(block)) all += more;
       refuse_counts(rays, all, hits, fmt::format("{}", verified + hit_count));

@@ -56,8 +56,8 @@ class Trial {
         base::Progress& progress)
       : scene_(scene), like_(like), find_wrong_(find_wrong), progress_(progress) {}
 
-  /// Returns a result over these primitives with the fault; nothing if there is none, or after too
-  /// many runs.
+  /// Returns a result over these primitives with the fault; nothing if no result has it, or after
+  /// too many runs.
   std::optional<Mismatch> wrong(std::span<const scenes::PrimitiveId> ids,
                                 const rays::TraceInput& input) {
     if (runs_ == kMaxRuns) return std::nullopt;
@@ -75,7 +75,7 @@ class Trial {
   std::size_t runs_ = 0;
 };
 
-/// Removes smaller and smaller parts of a list while `fails` is true for the rest.
+/// Removes smaller and smaller parts of a list while `fails` is true for the remaining list.
 template <class T, class Fails>
 std::vector<T> reduced(std::vector<T> items, Fails fails) {
   for (std::size_t part = (items.size() + 1) / 2; part >= 1; part /= 2) {
@@ -93,13 +93,14 @@ std::vector<T> reduced(std::vector<T> items, Fails fails) {
           first = last;
         }
       }
-      if (part > 1) break;  // single ones are tried until none can be left out
+      if (part > 1) break;  // single elements are tried until none can be left out
     }
   }
   return items;
 }
 
-/// Returns the primitives of the results, ascending; for a leak, all that may meet where it passes.
+/// Returns the primitives of the results, ascending; for a leak, all primitives that may meet where
+/// the ray passes.
 std::vector<scenes::PrimitiveId> named(const scenes::Scene& scene, const Mismatch& wrong) {
   if (wrong.leaked) return primitives_near(scene, wrong.ray);
   std::vector<scenes::PrimitiveId> ids;
@@ -114,8 +115,8 @@ std::vector<scenes::PrimitiveId> named(const scenes::Scene& scene, const Mismatc
   return ids;
 }
 
-/// Returns whether rays just beside a leak, on all sides, hit the scene. Otherwise it passes the
-/// rim of what is left of the closed surface, where a miss is right.
+/// Returns whether rays just beside a leak, on all sides, hit the scene. Otherwise, the ray passes
+/// a rim of what is left of the closed surface, where a miss is correct.
 bool is_surrounded(const scenes::Scene& scene, const Mismatch& leak) {
   if (!leak.exact) return false;
   constexpr int kSides = 8;
@@ -184,7 +185,7 @@ FindWrong wrong_by_differ(Tracer tracer) {
       found.ray = input.ray(error.index);
       found.query = input.query();
       found.diff_class = DiffClass::kStructureError;
-      found.reason = "invalid hit: it has a number that no hit has";
+      found.reason = "invalid hit: it has a number that no hit can have";
       if (like != nullptr && like->reason != found.reason) return std::nullopt;
       return found;
     } catch (const InputError&) {  // over this part it fails differently
@@ -203,7 +204,8 @@ std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::Trac
   std::vector<scenes::PrimitiveId> all(scene.primitives.size());
   std::iota(all.begin(), all.end(), 0U);
 
-  // Fewer primitives make all later steps quick, so the named ones are tried first.
+  // Fewer primitives make all later steps quick, so the primitives named in the results are tried
+  // first.
   std::vector<scenes::PrimitiveId> ids = named(scene, wrong);
   rays::TraceInput kept = list_of({wrong.ray}, input);
   std::optional<Mismatch> found = ids.empty() ? std::nullopt : trial.wrong(ids, kept);

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kListedMisses = 40;  // in the text; the JSON has all of them
+constexpr std::size_t kListedMisses = 40;  // in the text; the JSON has all misses
 
 /// The outcome of a ray-primitive test. A primitive beyond the best hit does not count as missed.
 struct TestOutcome {
@@ -275,7 +275,8 @@ std::string to_text(const scenes::Scene& scene, const RayPath& path) {
   out += beams_text(path);
   Account account(scene, path.verified.ray);
   for (std::size_t i = 0; i < path.steps.size(); ++i) {
-    // In the leaf where its beam ends, the images of the primitives on the screen are tested first.
+    // In the leaf where the sample's beam ends, the images of the primitives on the screen are
+    // tested first.
     const bool by_images = i == 0 && !path.beams.empty();
     out += step_text(i + 1, path.steps[i],
                      by_images ? "no test: the sample lies outside of the primitives' images"
@@ -283,8 +284,9 @@ std::string to_text(const scenes::Scene& scene, const RayPath& path) {
                      account);
   }
   if (path.steps.empty() && path.beams.empty()) {
-    out += fmt::format("{} lists no steps: the ray entered nothing, or it cannot list them\n",
-                       path.structure);
+    out += fmt::format(
+        "{} lists no steps: the ray entered nothing, or the structure cannot list steps\n",
+        path.structure);
   }
   return out + '\n' + describe(scene, path.input, path.verified) + alone_text(path) +
          counters_text(path);

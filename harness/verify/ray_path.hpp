@@ -18,16 +18,17 @@ namespace beambench::verify {
 /// The facts about one ray.
 struct RayPath {
   std::string structure;    ///< its short label
-  rays::ImageOfRays image;  ///< the image of the rays, or from which they come
+  rays::ImageOfRays image;  ///< the image that the rays belong to or start from
   const rays::TraceInput& input;
   std::vector<accel::TraceStep> steps;  ///< empty if the structure cannot list them
   std::map<std::string, std::uint64_t, std::less<>> counters;
-  /// The ray, its hit among all rays (or, unless `asked_all`, alone), the oracle's hit, and the
-  /// class.
+  /// The ray, its hit when traced with all rays (unless `asked_all`: alone), the oracle's hit, and
+  /// the class.
   Mismatch verified;
-  std::optional<accel::Hit> alone;  ///< its closest hit, traced alone
+  std::optional<accel::Hit> alone;  ///< its closest hit when traced alone
   bool asked_all = true;            ///< whether all rays of the input were traced
-  /// The beams that contain the sample. The steps are then those of the sample with its beams.
+  /// The beams that contain the sample. If there are any, the steps are those of the sample in its
+  /// beams.
   std::vector<accel::BeamPassage> beams;
 };
 
@@ -40,7 +41,7 @@ RayPath trace_path(const accel::StructureChoice& choice, const scenes::Scene& sc
 /// Returns one paragraph for each step.
 std::string to_text(const scenes::Scene& scene, const RayPath& path);
 
-/// Returns everything, with numbers as they are; infinite values and misses are null.
+/// Returns all data, with unrounded numbers; infinite values and misses are null.
 nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayPath& path);
 
 }  // namespace beambench::verify

@@ -57,7 +57,7 @@ void compare_bits(const rays::TraceInput& input, const rays::TraceResults& resul
   if (cell.different_bits > 0) cell.verdict = Verdict::kMismatch;
 }
 
-/// Describes disputes: ties are not disputes, and grazes only if there are too many.
+/// Describes disputes. Ties are not disputes; grazes are disputes only if there are too many.
 std::vector<std::string> describe_disputes(const VerifiedView& view, const DiffReport& report,
                                            const ReplayCommand& replay) {
   std::vector<std::string> texts;

@@ -21,7 +21,7 @@ struct VerifiedCell {
   std::string rays;  ///< as `RayChoice::label`
   std::uint64_t primitives = 0;
   std::string structure;   ///< the bare name
-  std::string parameters;  ///< all of them, canonical
+  std::string parameters;  ///< all parameters, in canonical form
   std::string label;       ///< the name and the parameters that are not at their defaults
   std::string rays_hash;   ///< empty if the rays follow from the hits, as in pictures
 
@@ -31,7 +31,7 @@ struct VerifiedCell {
   std::uint64_t different_bits = 0;   ///< rays whose hit differs from the reference's
   Verdict verdict = Verdict::kError;
   std::string message;  ///< why nothing was verified
-  std::string picture;  ///< the file of the differences; empty: none
+  std::string picture;  ///< the picture file of the differences; empty: none
 
   bool has_rays() const { return verdict != Verdict::kNoRays; }
   /// Returns whether a verification was possible, with rays that the structure supports.
@@ -47,10 +47,10 @@ struct VerifiedView {
   rays::TraceInput input;
   int threads = 1;          ///< number of threads that trace the image
   std::string program;      ///< the command for this program, for replaying a ray
-  std::uint32_t frame = 0;  ///< of a scene that moves
+  std::uint32_t frame = 0;  ///< of an animated scene
 };
 
-/// Verifies one structure and fills the rest of its cell; may throw InputError.
+/// A function that verifies one structure and fills in its cell; it may throw InputError.
 using VerifyInto = std::function<void(const accel::StructureChoice& choice, VerifiedCell& cell)>;
 /// Verifies each contender, starting with the exhaustive search if it is among them. `progress`
 /// gets one cell for each; a contender that throws gets the verdict "error".
@@ -58,20 +58,20 @@ std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::str
                                       std::vector<accel::StructureChoice> contenders,
                                       base::Progress& progress, const VerifyInto& verify_into);
 
-/// Draws the classes of an image's rays if some are wrong; returns the file.
+/// A function that draws the classes of an image's rays if some are wrong, and returns the file.
 using DrawDifferences = std::function<std::string(
     const ReferenceHits& reference, std::span<const DiffClass> classes, const VerifiedCell& cell)>;
 
-/// Verifies each contender, starting with the exhaustive search if it is among them: the bit-exact
-/// ones are compared with it, or with the first of them. `progress` gets one cell for each
-/// contender.
+/// Verifies each contender, starting with the exhaustive search if it is among them: bit-exact
+/// structures are compared with it or, if it is missing, with the first bit-exact one. `progress`
+/// gets one cell for each contender.
 std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                                        std::vector<accel::StructureChoice> contenders,
                                        base::Progress& progress,
                                        const DrawDifferences& draw_differences = {});
 
 /// Returns cells for a kind of rays that the scene does not have, with the reason. `progress` gets
-/// each.
+/// each cell.
 std::vector<VerifiedCell> cells_without_rays(const scenes::Scene& scene, const std::string& rays,
                                              std::vector<accel::StructureChoice> contenders,
                                              base::Progress& progress, const std::string& why);

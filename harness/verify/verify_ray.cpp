@@ -119,13 +119,13 @@ std::string_view why_wrong(const Measure& measure, const Mismatch& found) {
                ? "t is right, but another primitive is hit there"
                : "the ray does not meet that primitive at that t";
   }
-  if (!found.exact || claim.t < found.exact->t) return "a hit too many is reported";
+  if (!found.exact || claim.t < found.exact->t) return "a hit is reported that does not exist";
   return "a nearer hit was lost";
 }
 
-/// Classifies an any-hit result. "No hit" is correct if there is none, and only grazes if every
-/// existing hit does. "Hit" is correct if there is one, and grazes if the ray nearly hits
-/// something.
+/// Classifies an any-hit result. "No hit" is correct if there is no hit, and a graze if every
+/// existing hit is only grazed. "Hit" is correct if there is a hit, and a graze if the ray nearly
+/// hits something.
 void classify_any_hit(const Measure& measure, const std::vector<scenes::PrimitiveId>& near,
                       const std::vector<Crossing>& crossings, Mismatch& found) {
   const bool answer = found.any_hit_answer == 1;

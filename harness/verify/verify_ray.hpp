@@ -25,7 +25,7 @@ Mismatch candidate_mismatch(const rays::TraceInput& input, const rays::TraceResu
                             const std::optional<accel::oracle::ExactHit>& oracle);
 
 /// Sets class and reason if the result agrees with the oracle's, is within K u of it along the ray
-/// on another primitive, or is invalid; false if it is disputed.
+/// on another primitive, or is invalid; returns false if the result is disputed.
 bool classify_by_oracle(const scenes::Scene& scene, Mismatch& found);
 
 /// Sets class and reason of a dispute by exact arithmetic. A hit is correct if its point lies
@@ -39,7 +39,7 @@ void classify_by_search(const scenes::Scene& scene, Mismatch& found);
 /// Classifies a baseline's result: only a miss is correct.
 void classify_as_baseline(Mismatch& found);
 
-/// Does all of this for one ray; `found` is as returned by `candidate_mismatch`.
+/// Classifies one ray by these functions; `found` is as returned by `candidate_mismatch`.
 void verify_ray(const scenes::Scene& scene, accel::Conformance conformance, Mismatch& found);
 
 }  // namespace beambench::verify

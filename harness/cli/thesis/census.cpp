@@ -309,7 +309,7 @@ void add_census_command(CLI::App& app, int&) {
       ->type_name("DIR");
   command->add_flag("--count", request->count_work,
                     "Also count the structure's work over all rays, for shadow rays up to the "
-                    "first object that they hit; times then include it");
+                    "first object that they hit; times then include the counting");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "The rules of SPD: 513x513 rays through the corners of pixels, maximum depth 5, no minimum\n"
@@ -317,13 +317,12 @@ void add_census_command(CLI::App& app, int&) {
       "total reflection, no shadow ray to a light behind the surface; the counts that Haines\n"
       "published are printed for comparison. hidden: shadow rays that hit an opaque object; "
       "cached:\n"
-      "hidden ones found by the shadow cache; listed: shadow rays decided by light buffers.\n"
+      "hidden rays found by the shadow cache; listed: shadow rays decided by light buffers.\n"
       "Times: build; eye: primary rays; lists: light buffers; the rest, on --threads threads. "
       "With\n"
-      "--min-weight each picture is drawn again with all rays: too faint: rays not traced; of the\n"
-      "rays, of the rest: share of its rays and of its time; error: RMS difference of the "
-      "pictures\n"
-      "on a 0-255 scale.\n"
+      "--min-weight, each picture is drawn again with all rays. too faint: rays not traced;\n"
+      "of the rays, of the rest: share of the second picture's rays and time; error: RMS\n"
+      "difference of the pictures on a 0-255 scale.\n"
       "Examples:\n"
       "  beambench census tetra teapot:n=12 --rules spd\n"
       "  beambench census escena1 --accel beam --resolution 640x480 --shadows cache --json\n"

@@ -104,7 +104,7 @@ void print_json(const scenes::Scene& scene, const MirrorsRequest& request,
   fmt::print("{}\n", json_text(out));
 }
 
-/// Returns false if beams and rays found different hits.
+/// Prints the comparison; returns whether beams and rays found the same hits.
 bool show_mirrors(const MirrorsRequest& request) {
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
   const scenes::Scene scene = open_scene(request.scene);

@@ -112,10 +112,10 @@ void add_sampling_command(CLI::App& app, int&) {
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Uniform sampling, as in the thesis (no rays where beams leave the scene); object-space\n"
-      "sampling, the thesis's future work: the leaf at which a beam ends chooses 1, 5 or 25 "
-      "samples\n"
-      "by its references and its size in pixels; image-space sampling: pixels that differ from\n"
-      "their neighbors get more. Errors are relative to 64 samples per pixel, in preview shading.\n"
+      "sampling, the thesis's future work: 1, 5 or 25 samples, chosen by the references and\n"
+      "the size in pixels of the leaf at which a beam ends; image-space sampling: pixels that\n"
+      "differ from their neighbors get more. Errors are relative to 64 samples per pixel, in\n"
+      "preview shading.\n"
       "Examples:\n"
       "  beambench sampling delfines --resolution 320x200\n"
       "  beambench sampling maceta --accel beam:max_level=5 --resolution 160x100 --json\n"

@@ -19,7 +19,7 @@ async function readData() {
 const NO_PRIMITIVE = 0xffffffff;
 const BEAM = { goesOn: 0, occupied: 1, leaves: 2 };
 
-/** The number of steps of each ray, and of its ray-primitive tests. */
+/** Returns each ray's numbers of steps, ray-primitive tests, and leaves passed in beams. */
 function countWork(structure) {
   const { first_step: firstStep, first_test: firstTest, first_beam: firstBeam, omitted } = structure.paths;
   const rays = firstStep.length - 1;
@@ -33,7 +33,7 @@ function countWork(structure) {
   return work;
 }
 
-/** The steps of one ray: the beams that contain it, then the places that it enters itself. */
+/** Returns the steps of one ray: the beams that contain it, then the places that it enters itself. */
 function stepsOf(structure, ray) {
   const { paths } = structure;
   const placeOf = (number) => {

@@ -26,7 +26,7 @@ class StructurePanel {
       this.stage = new Stage(stage, shared, structure);
       this.stage.lights = data.scene.lights;
     } catch (error) {
-      stage.append(make("p", { class: "message" }, "This browser shows no 3D here (WebGL is off). The map and the steps work without it."));
+      stage.append(make("p", { class: "message" }, "This browser cannot show the scene in 3D (WebGL is off). The map and the steps work without it."));
     }
     view.append(stage, this.#viewControls(shared));
     this.section.append(head, view, this.#mapHolder, this.#stepHolder());
@@ -144,7 +144,7 @@ function setOpacity(shared, opacity) {
   shared.draw();
 }
 
-/** The pixel whose ray is shown first: the one with the most work. */
+/** Returns the pixel whose ray is shown first: the one with the most work. */
 function busiest(data, work) {
   let best = 0;
   work.steps.forEach((steps, ray) => {

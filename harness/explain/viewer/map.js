@@ -15,7 +15,7 @@ function rampColor(part) {
   return `rgb(${mixed.join()})`;
 }
 
-/** A color for a number, such that neighbors differ. */
+/** Returns a color for a number; neighboring numbers get different colors. */
 const numberedColor = (value) => `hsl(${(value * 137.5) % 360}, 55%, ${45 + (value % 3) * 10}%)`;
 
 function rampMode(name, title, values, unit) {
@@ -27,7 +27,7 @@ function rampMode(name, title, values, unit) {
   };
 }
 
-/** What a map of a structure can show; the first is shown first. */
+/** Returns the modes of a structure's map; the first is shown first. */
 function mapModes(data, structure, work) {
   const rays = data.image.width * data.image.height;
   const modes = [];
@@ -114,7 +114,7 @@ class ImageMap {
     this.onchange();
   }
 
-  /** A color and its meaning; beams can be hidden by kind. */
+  /** Returns a color with its meaning; beams can be hidden by kind. */
   #legendItem([title, color, kind]) {
     const item = make("li");
     const sign = make("i", { class: color.startsWith("linear") ? "ramp" : "", style: `background:${color}` });

@@ -40,7 +40,7 @@ class Surfaces {
     return this.scene.surfaces[this.scene.surface_of[primitive]].map((part) => 255 * (0.25 + 0.75 * Math.min(part, 1)));
   }
 
-  /** New meshes over the shared geometry: an object of three.js has one parent only. */
+  /** Returns new meshes over the shared geometry: an object of three.js has only one parent. */
   meshes() {
     return this.objects.map(([geometry, spheres]) => {
       if (!spheres) return new THREE.Mesh(geometry, this.material);
@@ -58,7 +58,7 @@ class Surfaces {
     return new THREE.Matrix4().makeScale(radius, radius, radius).setPosition(x, y, z);
   }
 
-  /** A mesh over some primitives. */
+  /** Returns a mesh over some primitives. */
   highlight(primitives, material) {
     const group = new THREE.Group();
     const wanted = new Set(primitives);
@@ -85,7 +85,7 @@ class Surfaces {
 
 const EDGES = [0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6, 3, 7];
 
-/** The edges of boxes, each six numbers: lower and upper corner. */
+/** Returns the edges of boxes, each given by six numbers: its lower and upper corner. */
 function boxEdges(boxes) {
   const positions = new Float32Array((boxes.length / 6) * EDGES.length * 3);
   let at = 0;
@@ -99,7 +99,7 @@ function boxEdges(boxes) {
   return geometry;
 }
 
-/** A box with faces and edges. */
+/** Returns a box with faces and edges. */
 function glassBox(box, color, opacity) {
   const group = new THREE.Group();
   const size = [0, 1, 2].map((axis) => Math.max(box[axis + 3] - box[axis], 1e-6));
@@ -110,7 +110,7 @@ function glassBox(box, color, opacity) {
   return group;
 }
 
-/** A rod between two points. */
+/** Returns a rod between two points. */
 function rod(from, to, radius, color, opacity = 1) {
   const along = to.clone().sub(from);
   const mesh = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, along.length(), 8, 1),
@@ -120,7 +120,7 @@ function rod(from, to, radius, color, opacity = 1) {
   return mesh;
 }
 
-/** A pyramid from the eye through corners on the image, given in pixels, to a view depth. */
+/** Returns a pyramid from the eye through corners on the image, given in pixels, to a view depth. */
 function pyramid(view, corners, depth, color) {
   const eye = view.eye();
   const ends = [];
@@ -140,7 +140,7 @@ function pyramid(view, corners, depth, color) {
   return group;
 }
 
-/** The cross-sections of beams where each enters its leaf, or leaves the scene. */
+/** Returns the cross-sections of beams where each enters its leaf or leaves the scene. */
 function beamSections(view, { kinds, first, corners, depths }, shown, far) {
   const group = new THREE.Group();
   const colors = [COLORS.goesOn, COLORS.occupied, COLORS.leaves];
@@ -164,7 +164,7 @@ function beamSections(view, { kinds, first, corners, depths }, shown, far) {
   return group;
 }
 
-/** Points with colors, as large as `size` pixels. */
+/** Returns points with colors, each `size` pixels wide. */
 function coloredPoints(points, colors, size) {
   const geometry = new THREE.BufferGeometry().setFromPoints(points);
   geometry.setAttribute("color", new THREE.Float32BufferAttribute(colors, 3));

@@ -1,6 +1,6 @@
 // A stage: the scene in 3D, with one structure over it.
 
-/** The image's view: points of its rays. */
+/** The view of the image, which computes points on its rays. */
 class ImageView {
   constructor(image) {
     this.image = image;
@@ -14,7 +14,7 @@ class ImageView {
   pointAt(px, py, t) { return this.eye().addScaledVector(this.direction(px, py), t); }
 }
 
-/** The camera that all stages share, and what they show of the scene. */
+/** The camera and the surfaces that all stages share. */
 class SharedView {
   constructor(data) {
     this.image = new ImageView(data.image);
@@ -33,7 +33,7 @@ class SharedView {
     this.lookFromOutside();
   }
 
-  /** From the side and above, so that both the eye and the scene are seen. */
+  /** Looks from the side and above, so that both the eye and the scene are seen. */
   lookFromOutside() {
     const eye = this.image.eye();
     const seen = new THREE.Box3(this.lower, this.upper).expandByPoint(eye);
@@ -85,7 +85,7 @@ class Stage {
       new THREE.MeshBasicMaterial({ color: 0x888888 })).translateX(0));
     this.scene.children.at(-1).position.copy(shared.image.eye());
     this.controls = new THREE.OrbitControls(shared.camera, this.renderer.domElement);
-    this.controls.target = shared.target;  // made with one of their own, which they looked at
+    this.controls.target = shared.target;  // the controls began with a target of their own
     this.controls.update();
     this.controls.addEventListener("change", () => shared.draw());
     shared.stages.push(this);
@@ -139,7 +139,7 @@ class Stage {
     this.#replace(this.cells, chosen.length > 0 ? [new THREE.LineSegments(boxEdges(chosen), material)] : []);
   }
 
-  /** Shows what a mode of the map shows, in the scene. */
+  /** Shows the content of a map mode in the scene. */
   showMap(mode, shown) {
     const objects = [];
     const { image, far } = this.shared;
@@ -209,7 +209,7 @@ class Stage {
     this.#replace(this.ray, objects);
   }
 
-  /** The tile of the selected pixel, or the shadow rays of its block. */
+  /** Returns the tile of the selected pixel, or the shadow rays of its block. */
   #bundle(pixel, mode, depth) {
     const { image, far } = this.shared;
     const { width, height } = image.image;
@@ -234,7 +234,7 @@ class Stage {
     return [pyramid(image, [left, top, right, top, right, bottom, left, bottom], Math.min(depth, far), COLORS.order)];
   }
 
-  /** Where the ray of a pixel is in a box. */
+  /** Returns the depths between which the ray of a pixel is in a box. */
   #depths(box, px, py) {
     const eye = this.shared.image.eye();
     const direction = this.shared.image.direction(px, py);

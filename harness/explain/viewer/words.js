@@ -7,7 +7,7 @@ const counted = (count, noun) => `${number(count)} ${noun}${Math.round(count) ==
 const oneDigit = (value) => (value >= 100 || Number.isInteger(value) ? number(value) : value.toFixed(1));
 const coordinate = (value) => Number(value.toPrecision(5)).toString();
 
-/** How beams share the work of the rays that they contain; null without beams. */
+/** Returns how beams share the work of the rays that they contain; null without beams. */
 function beamSharing(structure, work) {
   if (!structure.beams) return null;
   const { paths, beams } = structure;
@@ -41,7 +41,7 @@ function sentenceOf(structure, work) {
     const alone = ways.filter((way) => way === 0).length;
     const empty = ways.filter((way) => way === 1).length;
     return `${structure.label} traces the image in tiles of pixels: ${share(empty, rays)} of the pixels are ` +
-      `background without a ray, and ${share(alone, rays)} are traced alone. As a single ray, a pixel takes ` +
+      `background, for which no ray is traced, and ${share(alone, rays)} are traced alone. As a single ray, a pixel takes ` +
       `${oneDigit(mean(work.steps))} steps and ${oneDigit(mean(work.tests))} ray-primitive tests.`;
   }
   if (work.steps.every((steps) => steps === 0)) {
@@ -52,7 +52,7 @@ function sentenceOf(structure, work) {
     `${number(Math.max(...work.steps))} and ${number(Math.max(...work.tests))}.`;
 }
 
-/** The sentence on top of the page: what one structure does, or which of two does less. */
+/** Returns the sentence at the top of the page: what one structure does, or which of two does less work. */
 function comparison(structures, works) {
   if (structures.length === 1) return sentenceOf(structures[0], works[0]);
   const cost = works.map((work) => mean(work.tests));
@@ -92,7 +92,7 @@ function factsOf(structure) {
   return facts.join(", ");
 }
 
-/** The area of a polygon, in pixels, at least 1. */
+/** Returns the area of a polygon in pixels, at least 1. */
 function areaOf(corners) {
   let twice = 0;
   for (let i = 0; i < corners.length; i += 2) {
@@ -102,13 +102,13 @@ function areaOf(corners) {
   return Math.max(1, Math.abs(twice) / 2);
 }
 
-/** The lines about one step: [text, class]. */
+/** Returns the lines about one step: [text, class]. */
 function linesOf(step) {
   const lines = [];
   const place = `${step.word} ${number(step.index)}${step.level > 0 ? `, level ${step.level}` : ""}`;
   if (step.beam) {
     const what = ["An empty leaf: the beam continues", "An occupied leaf: the beam's pixels become rays",
-      "The end of the scene: the beam's pixels are background, without a ray"][step.beam.kind];
+      "The end of the scene: the beam's pixels are background, and no rays are traced"][step.beam.kind];
     lines.push([`${place}. ${what}.`], [`The beam has ${step.beam.corners.length / 2} edges and covers ${counted(areaOf(step.beam.corners), "pixel")}.`]);
     return lines;
   }

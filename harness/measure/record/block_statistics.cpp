@@ -26,8 +26,8 @@ MeanAndDeviation of_logarithms(std::span<const double> values) {
   return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1.0)) : 0.0};
 }
 
-/// Returns the least positive value of each block: other values are disturbed, missing or below the
-/// clock's resolution.
+/// Returns the least positive value of each block. Values that are not positive are disturbed,
+/// missing or below the clock's resolution.
 template <class Figure>
 std::map<int, double> least(const CellRecord& cell, Figure figure) {
   std::map<int, double> found;

@@ -1,5 +1,6 @@
 #pragma once
-// Statistics of blocks (harness/measure/block.hpp): the value of each, and intervals of their mean.
+// Statistics of blocks (harness/measure/block.hpp): the value of each block, and intervals of their
+// mean.
 
 #include <functional>
 #include <map>
@@ -17,20 +18,21 @@ struct Estimate {
   /// Covers the true value with 95% confidence. Decides rankings. Nothing for fewer than two
   /// blocks.
   std::optional<Interval> confidence{};
-  /// Covers the value of a second run with as many blocks with 95% probability. It is wider by the
-  /// square root of two, since both runs vary.
+  /// Covers the value of a second run with as many blocks with 95% probability. It is wider than
+  /// the confidence interval by the square root of two, since both runs vary.
   std::optional<Interval> prediction{};
   std::optional<double> error{};  ///< standard error of the value's logarithm; needs two blocks
 };
 
 /// Returns the estimate for positive values with multiplicative variation: the mean of their
 /// logarithms, with Student's t intervals. If the values were examined `looks` times, with more
-/// measured after each, the intervals of all looks hold jointly with 95% (Bonferroni).
+/// values measured after each look, the intervals of all looks hold jointly with 95% confidence
+/// (Bonferroni).
 Estimate estimate(std::span<const double> values, int looks = 1);
 
 /// Returns the 97.5% quantile of Student's t, which turns a standard error into the half-width of a
-/// 95% interval; for several looks, the quantile with which all intervals hold jointly with 95%.
-/// `degrees` is at least 1.
+/// 95% interval; for several looks, the quantile with which all intervals hold jointly with 95%
+/// confidence. `degrees` is at least 1.
 double student_t(int degrees, int looks = 1);
 
 /// The clock used to compare contenders.
@@ -45,18 +47,18 @@ std::map<int, double> least_by_block(const CellRecord& cell,
                                      const std::function<double(const Repetition&)>& figure);
 
 /// Returns the trace time of a cell in each block, in milliseconds: that of its fastest undisturbed
-/// repetition (`Repetition::is_undisturbed`) or, by the CPU clock, its shortest. A block without an
-/// undisturbed repetition has no wall time.
+/// repetition (`Repetition::is_undisturbed`) or, by the CPU clock, that of its fastest repetition.
+/// A block without an undisturbed repetition has no wall time.
 std::map<int, double> trace_by_block(const CellRecord& cell, TraceClock clock);
 
 /// Returns the total time of build and trace of a cell in each block, in the same way.
 std::map<int, double> total_by_block(const CellRecord& cell, TraceClock clock);
 
-/// Returns whether a cell has too few wall times to be compared by them: in less than half of its
-/// blocks.
+/// Returns whether a cell has wall times in fewer than half of its blocks, too few to be compared
+/// by them.
 bool is_disturbed(const CellRecord& cell);
 
-/// Returns the clock used for a cell on its own.
+/// Returns the clock used for a cell that is not compared with others.
 inline TraceClock own_clock(const CellRecord& cell) {
   return is_disturbed(cell) ? TraceClock::kCpu : TraceClock::kWall;
 }

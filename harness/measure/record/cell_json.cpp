@@ -48,7 +48,8 @@ std::optional<Value> optional(const Json& json, const std::string& name) {
   return found == json.end() ? std::nullopt : std::optional(found->template get<Value>());
 }
 
-// Calls `visit` with the name and the value of each plain member; used both to read and to write.
+// These functions call `visit` with the name and the value of each plain member; used both to read
+// and to write.
 
 template <class Facts, class Visit>
 void for_each_member(std::type_identity<RaySetFacts>, Facts& facts, Visit visit) {

@@ -9,8 +9,8 @@ namespace beambench::measure {
 
 /// Returns a cell's identity, rays, counters and sizes: members of the event `cell`.
 nlohmann::ordered_json facts_json(const CellRecord& cell);
-/// Reads them into a record. Throws nlohmann::json::exception if a member is missing or has another
-/// type, and InputError if a name is unknown.
+/// Reads these members into a record. Throws nlohmann::json::exception if a member is missing or
+/// has another type, and InputError if a name is unknown.
 void read_facts(const nlohmann::ordered_json& event, CellRecord& cell);
 
 nlohmann::ordered_json repetition_json(const Repetition& repetition);

@@ -21,9 +21,9 @@ namespace beambench::measure {
 enum class QueryPath {
   kImageSingle,  ///< an image, its rays generated one by one
   kImageSimd,    ///< an image, its rays generated and its hits stored by SIMD
-  kImageOwn,     ///< an image sampled by the structure; no share is the harness's
+  kImageOwn,     ///< an image sampled by the structure; the harness has no share
   kList,         ///< a list of rays: each is read, each result is written
-  kListPacked,   ///< the same, by SIMD, in packets
+  kListPacked,   ///< a list of rays, read and written by SIMD in packets
   kPicture       ///< a whole picture, which is shaded
 };
 
@@ -35,7 +35,8 @@ constexpr std::string_view to_string(QueryPath path) {
   return kQueryPathNames[static_cast<std::size_t>(path)];
 }
 
-/// The harness's own share of a trace by a query path: the time it takes if results cost nothing.
+/// The harness's own share of a trace by a query path: the time of the trace if finding the hits
+/// costs nothing.
 struct HarnessShare {
   QueryPath path;
   double ms;
@@ -53,7 +54,7 @@ struct CellId {
   std::string scene;
   std::string camera;
   std::string structure;   ///< the bare name
-  std::string parameters;  ///< all of them, canonical
+  std::string parameters;  ///< all parameters, in canonical form
   rays::Resolution resolution;
   int samples;
   std::string rays;  ///< as in `RayChoice::label`
@@ -66,7 +67,7 @@ struct CellId {
 
 /// One timed repetition: built, traced, discarded.
 struct Repetition {
-  int round;     ///< contenders take turns, one repetition each per round
+  int round;     ///< contenders take turns: in a round, each makes one repetition
   int position;  ///< in the order of its group in that round
   double build_ms;
   double trace_ms;
@@ -80,13 +81,13 @@ struct Repetition {
   std::optional<double> update_ms{}, update_cpu_ms{};
   /// The clock rate of the core, measured just before and after.
   double clock_ghz = 1.0;
-  /// The process that made it, with all contenders of its view; -1 in records of runs in one
-  /// process.
+  /// The number of its block, a process that measures all contenders of its view; -1 in records of
+  /// runs in one process.
   int block = -1;
 
   /// Returns whether the trace had the processor to itself: wall time and CPU time differ by at
-  /// most 3%, or by less than 20 us, which reading the clocks takes. Traces that waited for another
-  /// process are excluded.
+  /// most 3%, or by at most 20 us, the time that reading the clocks may take. Traces that waited
+  /// for another process are excluded.
   bool is_undisturbed() const {
     constexpr double kMaxPart = 0.03;
     constexpr double kMaxReading = 0.02;  // in milliseconds
@@ -104,7 +105,7 @@ struct Repetition {
 
 /// The reason why repetitions ended.
 enum class StopReason {
-  kPrecision,   ///< as many blocks as the precision needs, judging by the first
+  kPrecision,   ///< as many blocks as the precision needs, estimated from the first block
   kBudget,      ///< the time is up
   kRepetitions  ///< the maximum is reached
 };
@@ -128,7 +129,7 @@ struct RaySetFacts {
   std::uint64_t rays_hash = 0;
   std::uint64_t seed = 0;  ///< of random rays; 0 if nothing is random
   std::uint64_t primitives = 0;
-  std::uint64_t rays = 0;  ///< 0 if they could not be generated
+  std::uint64_t rays = 0;  ///< number of rays; 0 if they could not be generated
   rays::Query query = rays::Query::kClosestHit;
   /// The shares of closest-hit and any-hit queries that hit something, by the oracle.
   std::optional<double> hit_share{}, occluded_share{};
@@ -147,17 +148,17 @@ struct RaysOfKind {
 
 /// The results of the counting pass.
 struct CountedWork {
-  NamedCounters counters;         ///< empty if the structure counts nothing
-  std::vector<RaysOfKind> kinds;  ///< of a whole picture: the same counters for each ray kind
+  NamedCounters counters;         ///< empty if the structure does not count
+  std::vector<RaysOfKind> kinds;  ///< for a whole picture: the same counters, for each ray kind
 };
 
-/// A cell and all that is known about it.
+/// A cell and all facts recorded about it.
 struct CellRecord {
   std::size_t index;  ///< index in the plan of the whole sweep: the order of rows
   CellId id;
   RaySetFacts rays;
   int shard = 0;  ///< the shard that measured it; 0: not a merged run
-  /// The number of its contender's parameter sets that were tried on the tuning camera
+  /// The number of its contender's parameter sets that were tried with the tuning camera
   /// (tuning.hpp); 1: measured without tuning.
   int parameter_sets = 1;
   std::string time_utc;      ///< time when it was finished
@@ -167,11 +168,10 @@ struct CellRecord {
   // Missing if the structure could not be built:
   std::optional<accel::Statistics> statistics;
   std::optional<std::uint64_t> allocated_bytes;   ///< growth of the heap (`heap_in_use`)
-  std::optional<std::uint64_t> peak_build_bytes;  ///< peak memory of the build, less that before it
+  std::optional<std::uint64_t> peak_build_bytes;  ///< peak memory of the build minus that before it
   std::optional<HarnessShare> harness;
   std::vector<Repetition> repetitions;
-  /// Figures, by column of results.csv, that cannot be computed from the repetitions or from those
-  /// that remain.
+  /// Figures, by column of results.csv, that cannot be computed from the repetitions in the record.
   std::map<std::string, double, std::less<>> columns;
   std::optional<StopReason> stop_reason;
   /// The verification of the timed buffer, and the buffer's fingerprint.
@@ -179,7 +179,7 @@ struct CellRecord {
   std::optional<std::uint64_t> hits_hash;
 
   verify::Verdict verdict = verify::Verdict::kError;
-  std::string message;                ///< what is wrong, in one sentence; empty if nothing is
+  std::string message;                ///< what is wrong, in one sentence; empty if nothing is wrong
   std::vector<std::string> examples;  ///< descriptions of disputed rays
 
   /// Returns whether times are reported: only if the hits are correct, or missing by design.
@@ -192,7 +192,7 @@ struct CellRecord {
   }
 };
 
-/// Returns one figure, a member of `Repetition`, for every repetition of a cell.
+/// Returns one figure, a member of `Repetition`, of every repetition of a cell.
 template <class Figure>
 std::vector<double> collect(const CellRecord& cell, Figure figure) {
   std::vector<double> values;

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the throttling stated in a manifest's file.
+/// Returns the throttling stated in the JSON of a manifest.
 std::optional<Throttling> throttling_of(const Json& manifest) {
   const Json stated = manifest.at("measurement").value("throttling", Json());
   if (stated.is_null()) return std::nullopt;

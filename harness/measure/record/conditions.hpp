@@ -13,10 +13,10 @@
 
 namespace beambench::measure {
 
-/// Noise above this, in the slowest twentieth of equal work, shows that other work is running.
+/// Noise of equal work (`noise`) above this value shows that other work is running.
 constexpr double kNoisy = 0.05;
 
-/// Counts how much the kernel throttles a run, from construction on.
+/// Counts how much the kernel throttles a run after construction.
 class ThrottlingWatch {
  public:
   /// `earlier` is the throttling of the parts before the run was resumed. `root` is as in
@@ -45,7 +45,7 @@ std::optional<std::string> noise_warning(const std::optional<double>& noise);
 std::optional<std::string> quota_warning(const std::optional<double>& quota, int threads);
 
 /// Returns "the kernel throttled the process in 12 of 14 periods of its CPU quota"; nothing if it
-/// did not.
+/// was not throttled.
 std::optional<std::string> describe(const std::optional<Throttling>& throttling);
 
 /// Conditions that disturb all times of a run.

@@ -33,7 +33,7 @@ std::vector<Json> distinct(const std::vector<Json>& values) {
   return found;
 }
 
-/// Returns whether larger values are worse.
+/// Returns whether the largest of a member's values is kept, since larger values are worse.
 bool is_disturbance(std::string_view name) {
   return name == "load_average" || name == "highest_load" || name == "noise";
 }

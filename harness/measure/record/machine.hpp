@@ -1,5 +1,5 @@
 #pragma once
-// The machine of a run, as far as it reports its properties, and the build of this program.
+// The reported properties of the machine of a run, and the build of this program.
 
 #include <array>
 #include <cstdint>
@@ -37,11 +37,11 @@ struct Machine {
   std::optional<double> cpu_quota;
   std::uint64_t memory_bytes;
   std::string kernel;
-  std::string instructions;  ///< the widest vector instructions it has, "AVX2"
-  bool virtual_machine;      ///< whether it reports a hypervisor
+  std::string instructions;  ///< the widest vector instructions available: "AVX2"
+  bool virtual_machine;      ///< whether the processor reports a hypervisor
   std::uint64_t page_bytes;
-  std::string huge_pages;         ///< "always", "madvise", "never", or empty: transparent ones
-  std::string governor;           ///< of the first core; empty: unknown
+  std::string huge_pages;         ///< transparent huge pages: "always", "madvise", "never" or empty
+  std::string governor;           ///< frequency governor of the first core; empty: unknown
   std::string turbo;              ///< "on", "off", or empty: unknown
   double load;                    ///< one-minute load average when inspected
   std::uint64_t executable_hash;  ///< of this program's file
@@ -55,12 +55,12 @@ double load_average();
 
 /// Returns sixteen hexadecimal digits that identify a machine without naming it: a fingerprint of
 /// the processor (maker, family, model and stepping, since different virtual machines report the
-/// same name) and of the installation (machine-id(5), or else the host's name). A machine with a
-/// new processor or system counts as another machine, since its times change.
+/// same name) and of the installation (machine-id(5), or else the host's name). After a change of
+/// processor or system, a machine counts as another machine, since its times change.
 std::string machine_id(std::string_view processor, std::string_view installation);
 
-/// Returns the identity of the first processor, line by line, in a text with the layout of Linux's
-/// /proc/cpuinfo; empty if the text lacks it.
+/// Returns the lines that identify the first processor in a text with the layout of Linux's
+/// /proc/cpuinfo; empty if there are none.
 std::string processor_identity(std::string_view cpuinfo);
 
 /// Returns the conditions that disturb timings and cannot be controlled from here, one sentence

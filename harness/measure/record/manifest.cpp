@@ -22,8 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The version of the layout of a run's files. Incremented when a reader of the old layout would
-// fail.
+// The version of the layout of a run's files. Incremented when programs made for the old layout
+// would fail.
 constexpr int kRecordVersion = 1;
 
 constexpr std::string_view kLibraryNote =

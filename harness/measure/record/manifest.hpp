@@ -31,9 +31,9 @@ struct MeasurementFacts {
   int pinned_core;        ///< -1 if the thread could not be pinned
   unsigned control_word;  ///< MXCSR in the timed code
   double warm_up_seconds;
-  std::string simd_target;       ///< the best one Highway supports here; our own SIMD uses it
+  std::string simd_target;       ///< Highway's best target here, used by beambench's SIMD
   std::optional<double> noise;   ///< noise of equal work in the warm-up (`noise`)
-  std::string hardware_problem;  ///< why hardware counters are not read; empty: they are
+  std::string hardware_problem;  ///< why hardware counters are not read; empty if they are read
   /// Throttling of the whole run, including the parts before it was resumed; nothing: no quota.
   std::optional<Throttling> throttling{};
 };
@@ -47,7 +47,7 @@ struct Manifest {
   Machine machine;
   MeasurementFacts measurement;
   std::vector<plugin::LoadedPlugin> plugins;
-  std::vector<SceneFacts> scenes;         ///< of the whole sweep, even for a shard
+  std::vector<SceneFacts> scenes;         ///< scenes of the whole sweep, even for a shard
   std::optional<ShardFacts> shard;        ///< nothing: the run is the whole sweep
   std::vector<std::string> uncontrolled;  ///< sentences
   nlohmann::ordered_json google_benchmark = nlohmann::ordered_json::object();  ///< its context
@@ -55,8 +55,8 @@ struct Manifest {
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
 };
 
-/// Makes `now` the manifest of a run that was begun under `before` (its file) and is being resumed.
-/// From then on, the throttling of the earlier parts is included.
+/// Makes `now` the manifest of a run that was begun with the manifest `before` and is being
+/// resumed. The throttling then includes that of the earlier parts.
 void continue_with(Manifest& now, const nlohmann::ordered_json& before);
 
 nlohmann::ordered_json to_json(const Manifest& manifest);
@@ -65,10 +65,10 @@ nlohmann::ordered_json to_json(const Manifest& manifest);
 /// not be controlled.
 std::vector<std::string> preflight(const Manifest& manifest);
 
-/// Makes the manifest of a new run of the sweep of that name. Its timed code is pinned to `core`
-/// (-1: not pinned) and runs on that many threads, after a warm-up; `shard` says which part of the
-/// sweep it is. The rest is read from this program, the machine (its quota below `root`, as in
-/// `cpu_quota`) and Embree.
+/// Makes the manifest of a new run of the sweep `sweep`. After a warm-up, the timed code runs on
+/// `threads` threads, pinned to `core` (-1: not pinned). `shard` is the part of the sweep that the
+/// run measures. All other facts are read from this program, the machine (its quota below `root`,
+/// as in `cpu_quota`) and Embree.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
                         int threads, std::chrono::duration<double> warm_up,
                         std::optional<ShardFacts> shard = std::nullopt,

@@ -1,11 +1,11 @@
-# Writes OUTPUT, a header with the commit of SOURCE_DIR, only when its contents change. Run by every
-# build: what a configure step remembered would be stale after the next commit.
+# Writes OUTPUT, a header with the commit of SOURCE_DIR, only when its contents change. Every build
+# runs this script, because a value from the configure step would be stale after the next commit.
 
 # In a source archive, git has put the commit here (.gitattributes), and there is no repository.
 set(commit "$Format:%H$")
 set(dirty "false")
 if(NOT commit MATCHES "^[0-9a-f]+$")
-  # A checkout owned by someone else (a container's mount) may be read all the same.
+  # safe.directory: the checkout may be owned by another user (in a container).
   set(git git -c safe.directory=* -C "${SOURCE_DIR}")
   execute_process(COMMAND ${git} rev-parse HEAD
     OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)

@@ -34,8 +34,9 @@ std::size_t samples_outside(std::size_t n) {
   return k;
 }
 
-/// Returns the least k with P(smallest of n further samples > k-th smallest of n) <= kTail: the k
-/// smallest of both together are then all of the first n. Returns nothing if there is no such rank.
+/// Returns the least k with P(smallest of n further samples > k-th smallest of n) <= kTail: this
+/// happens when the k smallest of all 2n samples are among the first n. Returns nothing if there is
+/// no such rank.
 std::optional<std::size_t> rank_above_next_minimum(std::size_t n) {
   double probability = 1.0;
   for (std::size_t k = 1; k <= n; ++k) {

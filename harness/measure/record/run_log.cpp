@@ -46,7 +46,7 @@ std::uint64_t for_each_line(const fs::path& log,
   return whole;
 }
 
-/// Does the same for a log compressed with gzip.
+/// Does what `for_each_line` does for a log compressed with gzip.
 std::uint64_t for_each_packed_line(const fs::path& log,
                                    const std::function<void(std::string_view line)>& visit) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(log.c_str(), "rb"), gzclose);
@@ -129,7 +129,7 @@ class Reader {
     }
   }
 
-  /// Moves cells that were tried but not kept out of the plan.
+  /// Moves the cells that tuning tried but did not keep from the plan to `passed_over`.
   void pass_over(const Json& event) {
     std::set<std::size_t> others;
     for (const Json& each : event.at("candidates"))
@@ -165,7 +165,7 @@ void require_known_shards(const Run& run, const std::string& log) {
   }
 }
 
-/// Returns a member of a manifest as text, whatever its type; empty if it is missing.
+/// Returns a member of a manifest as a string, whatever its type; empty if it is missing.
 std::string member(const Json& manifest, const char* pointer) {
   const Json::json_pointer place(pointer);
   return manifest.contains(place) ? json_text(manifest.at(place), -1) : "";

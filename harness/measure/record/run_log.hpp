@@ -35,13 +35,14 @@
 
 namespace beambench::measure {
 
-/// The version of the log. Incremented when a reader of the old version would fail. Version 1 had
-/// no blocks: its repetitions all come from one process.
+/// The version of the log. Incremented when programs made for the old version would fail. Version 1
+/// had no blocks: its repetitions all come from one process.
 inline constexpr int kLogVersion = 2;
 
 /// The name of the log in a run's folder.
 inline constexpr const char* kLogName = "run.jsonl";
-/// The name of a log compressed with gzip for archiving; it is read if the other is missing.
+/// The name of a log compressed with gzip for archiving; it is read if the uncompressed log is
+/// missing.
 inline constexpr const char* kPackedLogName = "run.jsonl.gz";
 
 /// A cell of a plan.
@@ -58,7 +59,7 @@ struct Run {
   std::vector<PlannedName> plan;         ///< without the cells that tuning dropped
   std::vector<PlannedName> passed_over;  ///< dropped by tuning: other parameter sets were faster
   /// The cells that were begun, in the order of the plan. An unfinished cell has the verdict of its
-  /// verification, and is absent before that.
+  /// verification; before the verification it is absent.
   std::vector<CellRecord> cells;
   std::uint64_t log_bytes = 0;  ///< size of the whole lines of the log
 
@@ -87,7 +88,7 @@ class RunLog {
   /// Writes the header of a new run.
   void begin(const nlohmann::ordered_json& manifest, const nlohmann::json& config,
              std::span<const PlannedName> plan);
-  /// Continues an opened log after its whole lines, which have that many bytes.
+  /// Continues an opened log after its whole lines, which have `log_bytes` bytes.
   void resume(const nlohmann::ordered_json& manifest, std::uint64_t log_bytes);
 
   /// Adds an event: one of a cell (`CellEvents`), or an unchanged one from another log.
@@ -110,9 +111,8 @@ class RunLog {
 std::uint64_t for_each_event(const std::filesystem::path& folder,
                              const std::function<void(const nlohmann::ordered_json& event)>& visit);
 
-/// Returns the difference between the programs of two manifests that makes their cells
-/// incomparable, as a clause: the program, the plug-ins or a scene that both have. Empty if there
-/// is none.
+/// Returns, as a clause, the difference between two manifests that makes their cells incomparable:
+/// in the program, the plug-ins or a scene that both have. Empty if there is no such difference.
 std::string program_difference(const nlohmann::ordered_json& first,
                                const nlohmann::ordered_json& second);
 

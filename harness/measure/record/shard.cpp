@@ -10,7 +10,7 @@
 namespace beambench::measure {
 namespace {
 
-/// Parses a text that consists of digits only; returns nothing for any other text.
+/// Parses a string of digits; returns nothing for any other string.
 std::optional<int> number_of(std::string_view text) {
   int number = 0;
   const char* const end = text.data() + text.size();

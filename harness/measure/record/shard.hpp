@@ -26,7 +26,7 @@ struct ShardFacts {
   std::size_t cells_of_sweep;  ///< cells of all shards
 };
 
-/// Parses `2/4`. Throws InputError unless the text is K/N with K from 1 to N.
+/// Parses `2/4`. Throws InputError unless the string is K/N with K from 1 to N.
 Shard parse_shard(std::string_view text);
 
 /// Returns `2/4`, the form read by parse_shard.

@@ -36,8 +36,8 @@ Point point(const V& v) {
   return {v.x, v.y, v.z};
 }
 
-/// The tree. Its rays are infinite: they begin at the place of t_min, and hits beyond t_max are
-/// misses.
+/// The tree. CGAL's rays are infinite: they begin at the point with t_min, and hits beyond t_max
+/// are discarded.
 class CgalTree : public TraversalAccelerator<CgalTree> {
  public:
   explicit CgalTree(const Scene& scene) : scene_(&scene) {
@@ -58,7 +58,7 @@ class CgalTree : public TraversalAccelerator<CgalTree> {
     const Vector way = query.to_vector();
     const auto t_of = [&](const Point& place) {
       const double t = ray.t_min + (place - query.source()) * way / way.squared_length();
-      return std::max(static_cast<float>(t), ray.t_min);  // the place is rounded, too
+      return std::max(static_cast<float>(t), ray.t_min);  // that point is rounded, too
     };
     const auto* place = boost::get<Point>(&found->first);
     const auto* line = boost::get<Kernel::Segment_3>(&found->first);  // in the triangle's plane

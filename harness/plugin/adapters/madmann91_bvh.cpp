@@ -99,7 +99,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
     return {vec3(ray.origin), vec3(ray.direction), ray.t_min, ray.t_max};
   }
 
-  /// Returns the number in the scene of the triangle that is hit; `ray.tmax` is its t.
+  /// Returns the index of the hit triangle in the scene; `ray.tmax` is the t of the hit.
   template <bool kAny, class Counting>
   std::optional<std::size_t> visit(TheirRay& ray, Counting& counting) const {
     if (triangles_.empty()) return std::nullopt;
@@ -147,11 +147,11 @@ const Plugin beambench_plugin{
     .description = "Arsène Pérard-Gayot's bvh, version 2", .fill = [](PluginContents& contents) {
       contents.structures.push_back(
           {"madmann91-bvh",
-           "Pérard-Gayot's library of headers: a SAH hierarchy of two children a node, single rays",
+           "Pérard-Gayot's header-only library: binary SAH hierarchies, single rays",
            Conformance::kTolerance,
            {choice_parameter("quality", "high", {"high", "medium", "low"},
-                             "how long the hierarchy is worked on"),
-            flag_parameter("robust", true, "the box test that loses no hit (Ize 2013)"),
+                             "effort spent on building the hierarchy"),
+            flag_parameter("robust", true, "use the box test that loses no hits (Ize 2013)"),
             adapters::exact_t_parameter()},
            build,
            {.spheres = false, .cones = false}});

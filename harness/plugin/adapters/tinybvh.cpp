@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#define NO_THREADED_BUILDS  // one thread for everyone
+#define NO_THREADED_BUILDS  // every contender builds on one thread
 #define TINYBVH_IMPLEMENTATION
 #include <glm/geometric.hpp>
 #include <tiny_bvh.h>
@@ -26,8 +26,8 @@ using namespace beambench::scenes;
 
 tinybvh::bvhvec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-/// Returns the bytes of a layout, including what it was made from: tinybvh does not free it in
-/// between.
+/// Returns the bytes of a layout, including the layouts from which it was made: tinybvh does not
+/// free them.
 std::size_t bytes_of(const tinybvh::BVH& bvh) {
   return bvh.allocatedNodes * sizeof(tinybvh::BVH::BVHNode) +
          bvh.idxCount * (sizeof(std::uint32_t) + sizeof(tinybvh::BVHBase::Fragment));
@@ -70,8 +70,8 @@ struct Options {
   bool exact_t;
 };
 
-/// One of tinybvh's layouts over the triangles of a scene. tinybvh does not support t_min, so rays
-/// begin at theirs.
+/// One of tinybvh's layouts over the triangles of a scene. tinybvh does not support t_min, so each
+/// ray's origin is moved to its t_min.
 template <class Layout>
 class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
  public:
@@ -122,8 +122,8 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   }
 
  private:
-  /// Builds: the wider layouts choose the fastest builder themselves; BVH::Build is the reference
-  /// builder, which makes the same tree.
+  /// Builds a layout. The wider layouts choose the fastest builder themselves. BVH::Build is the
+  /// reference builder, so BVH::BuildAVX is called where available; it makes the same tree.
   template <class Built>
   void build_binned(Built& built, std::uint32_t triangles) {
 #ifdef BVH_USEAVX
@@ -135,9 +135,9 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     built.Build(vertices_.data(), triangles);
   }
 
-  /// Optimizes: the wider layouts' own `Optimize` loses triangles, because they join leaves whose
-  /// triangles must be neighbors. Only `Compact` makes them neighbors again after subtrees were
-  /// moved.
+  /// Builds and optimizes a layout. The wider layouts' own `Optimize` is not used, because it loses
+  /// triangles: these layouts join leaves, whose triangles must be neighbors. After subtrees have
+  /// been moved, only `Compact` makes the triangles neighbors again.
   void build_optimized(std::uint32_t triangles) {
     auto& bvh = const_cast<tinybvh::BVH&>(binary(layout_));
     if (options_.spatial) {
@@ -158,7 +158,8 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     return binary(layout_).usedNodes;
   }
 
-  /// Returns the length of the direction if it is normalized, which is the unit of tinybvh's t.
+  /// Returns the factor from beambench's t to tinybvh's: the direction's length if directions are
+  /// normalized.
   float unit_of(const Ray& ray) const {
     return options_.normalize ? glm::length(ray.direction) : 1.0F;
   }
@@ -168,7 +169,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     const float reach = (ray.t_max - ray.t_min) * unit;
     const float far = options_.normalize ? BVH_FAR : kFarNotNormalized;
     const float t_max = reach < far ? reach : far;
-    // Like its ray constructor, which, however, always normalizes.
+    // Sets the members as tinybvh's ray constructor does, which always normalizes.
     tinybvh::Ray query;
     query.O = origin;
     query.D =
@@ -178,9 +179,9 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     return query;
   }
 
-  /// Empty children are boxes at 1e30, BVH_FAR. A longer direction reaches them before t is that
-  /// large, and finds no node; this value is nearer than that for all directions of length up to
-  /// 1e10.
+  /// Empty children are boxes at BVH_FAR, 1e30. A ray with a long direction would reach them at a
+  /// smaller t, where there is no node. With this limit, rays with directions of length up to 1e10
+  /// do not reach them.
   static constexpr float kFarNotNormalized = 1e20F;
 
   const Scene* scene_;
@@ -189,8 +190,8 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   Layout layout_;
 };
 
-/// tinybvh's BVH_Double. The constructor of its rays normalizes directions, in double; t is scaled
-/// back.
+/// tinybvh's BVH_Double. The constructor of its rays normalizes directions in double; t is
+/// converted back.
 class TinyBvhDouble : public TraversalAccelerator<TinyBvhDouble> {
  public:
   TinyBvhDouble(const Scene& scene, bool exact_t) : scene_(&scene), exact_t_(exact_t) {
@@ -262,7 +263,7 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& paramet
   if (layout == "double") {
     if (options.spatial || options.optimize > 0 || !options.normalize) {
       throw InputError(
-          "tinybvh:layout=double has one builder, no optimizer, and normalizes; leave out builder, "
+          "tinybvh:layout=double has one builder and no optimizer, and normalizes; omit builder, "
           "optimize and normalize");
     }
     return std::make_unique<TinyBvhDouble>(scene, options.exact_t);
@@ -276,7 +277,7 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& paramet
   if (layout == "soa") return std::make_unique<TinyBvh<tinybvh::BVH_SoA>>(scene, options);
 #else
   if (layout != "bvh2") {
-    throw InputError("this plug-in was built without AVX2 and FMA; take tinybvh:layout=bvh2");
+    throw InputError("this plug-in was built without AVX2 and FMA; use tinybvh:layout=bvh2");
   }
 #endif
   return std::make_unique<TinyBvh<tinybvh::BVH>>(scene, options);
@@ -288,7 +289,7 @@ const Plugin beambench_plugin{
     .description = "Jacco Bikker's tinybvh", .fill = [](PluginContents& contents) {
       contents.structures.push_back(
           {"tinybvh",
-           "Bikker's library of one header: SAH hierarchies of two, four or eight children a node",
+           "Bikker's single-header library: SAH hierarchies, two, four or eight children per node",
            Conformance::kTolerance,
            {choice_parameter("layout", "bvh8", {"bvh8", "bvh4", "soa", "bvh2", "double"},
                              "children a node: BVH8_CPU by AVX2, BVH4_CPU by SSE, BVH_SoA with two "
@@ -296,9 +297,10 @@ const Plugin beambench_plugin{
             choice_parameter("builder", "binned", {"binned", "spatial"},
                              "spatial: with spatial splits (Stich and others 2009), its BuildHQ"),
             integer_parameter("optimize", 0, 0, 10000,
-                              "iterations by which its optimizer reinserts subtrees, after that"),
-            flag_parameter("normalize", true,
-                           "directions, as the constructor of its rays does; t is scaled back"),
+                              "optimizer iterations, which reinsert subtrees after the build"),
+            flag_parameter(
+                "normalize", true,
+                "normalize directions, as its ray constructor does; t is converted back"),
             adapters::exact_t_parameter()},
            build,
            {.spheres = false, .cones = false}});

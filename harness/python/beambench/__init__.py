@@ -33,7 +33,7 @@ from beambench.sweeps import sweep
 from beambench.verification import CLASSES, Example, Report, verify
 
 __version__: str = _version()
-"""The version of the program that the module belongs to."""
+"""The version of beambench."""
 
 __all__ = [
     "CLASSES",

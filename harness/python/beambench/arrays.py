@@ -21,13 +21,13 @@ def whole_number(name: str, given: object) -> int:
 
 
 def text(name: str, given: object) -> str:
-    """Returns Unicode text; raises TypeError for anything else, InputError for lone surrogates."""
+    """Returns a Unicode string; raises TypeError for other types, InputError for surrogates."""
     if not isinstance(given, str):
-        raise TypeError(f"{name} is {given!r}; expected a text")
+        raise TypeError(f"{name} is {given!r}; expected a string")
     try:
         given.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{name} is {given!a}; expected a text that UTF-8 can hold") from None
+        raise InputError(f"{name} is {given!a}; expected a string that UTF-8 can encode") from None
     return given
 
 
@@ -36,31 +36,31 @@ def encoded(name: str, given: str | bytes | os.PathLike[Any]) -> bytes:
     try:
         return os.fsencode(given)
     except UnicodeEncodeError:
-        raise InputError(f"{name} is {given!a}; expected characters that files can have") from None
+        raise InputError(f"{name} is {given!a}; expected characters valid in a path") from None
     except TypeError:
-        raise TypeError(f"{name} is {given!r}; expected a text or a path") from None
+        raise TypeError(f"{name} is {given!r}; expected a string or a path") from None
 
 
 def _shape_text(shape: tuple[int | str, ...]) -> str:
-    """Returns a text such as `(N, 3)` or `(N,)`."""
+    """Returns a string such as `(N, 3)` or `(N,)`."""
     return f"({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"
 
 
 def _as_array(name: str, given: ArrayLike, kinds: str, expected: str) -> NDArray[Any]:
-    """Returns an array of any shape, after checking that its dtype is one of these kinds."""
+    """Returns an array of any shape, after checking that the kind of its dtype is in `kinds`."""
     try:
         array = np.asarray(given)
     except ValueError as error:  # rows of several lengths
         raise InputError(f"{name} is not an array: {error}") from None
     if array.size == 0 and not isinstance(given, np.ndarray):
-        array = array.astype(np.int64 if "i" in kinds else np.float64)  # [] has no type of its own
+        array = array.astype(np.int64 if "i" in kinds else np.float64)  # an empty list has no type
     if array.dtype.kind not in kinds:
         raise TypeError(f"{name} has dtype {array.dtype}; expected {expected}")
     return array
 
 
 def _require_shape(name: str, array: NDArray[Any], shape: tuple[int | str, ...]) -> None:
-    """Raises InputError for any other shape. A string in `shape` stands for any number of rows."""
+    """Raises InputError unless `array` has the shape; a string in `shape` stands for any number."""
     fits = array.ndim == len(shape) and all(
         isinstance(wanted, str) or wanted == found
         for wanted, found in zip(shape, array.shape, strict=True)
@@ -77,7 +77,7 @@ def reals(
     shape: tuple[int | str, ...],
     dtype: type[np.float32] | type[np.float64],
 ) -> NDArray[Any]:
-    """Returns real numbers of a shape in one block of memory: in place if possible, else a copy."""
+    """Returns real numbers of a shape in one block of memory; copies them only if necessary."""
     array = _as_array(name, given, "fiu", f"real numbers ({np.dtype(dtype)})")
     _require_shape(name, array, shape)
     with np.errstate(over="ignore"):  # numbers too large for float32 become infinite
@@ -97,7 +97,7 @@ def ids(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[np
         place = tuple(int(i) for i in np.argwhere(wrong)[0])
         raise InputError(
             f"{name}[{', '.join(map(str, place))}] is {array[place]}; expected an index "
-            "of at least 0, or -1 for none"
+            "of at least 0, or -1 for a miss"
         )
     return np.ascontiguousarray(array.astype(np.uint32))
 
@@ -116,7 +116,7 @@ def flags(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[
 
 
 def rays_in_place(given: ArrayLike) -> NDArray[np.float32]:
-    """Returns the rays of a call: in place if they are float32 in one block, else a copy."""
+    """Returns rays; copies them unless they are float32 in one block of memory."""
     return reals("rays", given, ("N", 8), np.float32)
 
 

@@ -58,9 +58,9 @@ def explain(
         scene: the scene.
         structure: a name with or without parameters, such as `"samet:max_level=5"`.
         second: another structure, shown beside the first.
-        camera: None: the scene's first.
-        resolution: that of the image whose rays are followed, up to 65,536 pixels; None: 96 pixels
-            along the longer side.
+        camera: the camera of the image; None: the scene's first.
+        resolution: width and height of the image whose rays are followed, up to 65,536 pixels;
+            None: 96 pixels along the longer side.
 
     Returns:
         The page. A notebook displays it as the last value of a cell; `save` writes it to a file.

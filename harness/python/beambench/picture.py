@@ -13,7 +13,7 @@ from beambench.arrays import reals
 
 
 def to_srgb(picture: ArrayLike) -> NDArray[np.uint8]:
-    """Encodes linear light for display, as `matplotlib.pyplot.imshow` and image files expect it.
+    """Encodes linear light for displays: for `matplotlib.pyplot.imshow` and image files.
 
     Args:
         picture: shape (height, width, 3), as `Scene.render` returns it.
@@ -38,7 +38,7 @@ def to_png(picture: NDArray[np.uint8]) -> bytes:
         checked = kind + content
         return struct.pack(">I", len(content)) + checked + struct.pack(">I", zlib.crc32(checked))
 
-    # Each row begins with the number of its filter; 0 means none.
+    # Each row begins with the number of its filter; 0: no filter.
     rows = np.insert(picture.reshape(height, 3 * width), 0, 0, axis=1)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     return b"".join(

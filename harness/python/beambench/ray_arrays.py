@@ -11,13 +11,13 @@ from beambench.arrays import reals
 
 
 def _rows(name: str, given: ArrayLike) -> NDArray[np.float32]:
-    """Returns vectors, one for each ray or one for all."""
+    """Returns vectors: one for each ray, or a single one for all rays."""
     array = np.asarray(given)
     return reals(name, given, (3,) if array.ndim == 1 else ("N", 3), np.float32)
 
 
 def _interval(name: str, given: ArrayLike) -> NDArray[np.float32]:
-    """Returns numbers, one for each ray or one for all."""
+    """Returns numbers: one for each ray, or a single one for all rays."""
     array = np.asarray(given)
     return reals(name, given, () if array.ndim == 0 else ("N",), np.float32)
 
@@ -32,8 +32,8 @@ def rays(
 
     Args:
         origins: shape (N, 3), or (3,) for all rays.
-        directions: shape (N, 3), or (3,) for all rays; they define the unit of t. The largest
-            component must have a size of 1e-30 or more, and none a size above 1e9.
+        directions: shape (N, 3), or (3,) for all rays; they define the unit of t. The absolute
+            value of the largest component must be from 1e-30 to 1e9.
         t_min: shape (N,) or one number; not negative.
         t_max: shape (N,) or one number; may be infinite.
 

@@ -12,7 +12,7 @@ _WIDTH = 240
 
 
 class Results(pd.DataFrame):
-    """The rows of results.csv. Selections from them are plain DataFrames."""
+    """The rows of results.csv. Selections of rows or columns are plain DataFrames."""
 
     @property
     def _constructor(self) -> type[pd.DataFrame]:
@@ -46,7 +46,7 @@ def _table(rows: pd.DataFrame) -> str:
 
 
 def _times(row: pd.Series, longest: float) -> str:
-    """Returns three cells: the figures and the bars; empty cells if nothing was timed."""
+    """Returns three table cells: two figures and the bars; empty cells if nothing was timed."""
     build, trace = row["build_ms_median"], row["trace_ms_median"]
     if pd.isna(trace):
         return "<td></td><td></td><td></td>"

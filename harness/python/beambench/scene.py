@@ -74,12 +74,12 @@ class Scene:
         Args:
             spec: a name with parameters (`"balls:n=3"`, see `scenes`), a registered mesh
                 (`"mesh:dragon"`), or the path of an NFF or mesh file, which need not be UTF-8.
-            strict: raise if the reader of a file would skip or repair something; otherwise this
-                only causes a UserWarning.
+            strict: raise an InputError if the file's reader skips or repairs something; otherwise,
+                this only causes a UserWarning.
 
         Raises:
-            InputError: no such name or file, a parameter out of range, or a malformed file, with
-                the line.
+            InputError: no such name or file, a parameter out of range, or a malformed file (the
+                message states the line).
         """
         self._compiled = _beambench.load_scene(encoded("spec", spec), bool(strict))
         self._source_rows: NDArray[np.int64] | None = None
@@ -110,14 +110,14 @@ class Scene:
             triangles: shape (T, 3), integers: rows of `vertices`.
             name: the name of the scene.
             up: "y" or "z"; used by the cameras fitted to the scene.
-            degenerate: what to do with triangles that have no area after rounding, which no ray
-                can hit: "error" or "skip". If skipped, they do not count as primitives, and
-                `source_rows` has the row of each primitive.
+            degenerate: the treatment of triangles without area after rounding, which no ray can
+                hit: "error" or "skip". Skipped triangles do not count as primitives, and
+                `source_rows` contains the row of each primitive.
 
         Raises:
             InputError: another shape, a coordinate that is not a number or beyond 1e9, an
-                index without a vertex, no triangles, or one without area; the message states its
-                row.
+                index without a vertex, no triangles, or a triangle without area; the message states
+                the row.
             TypeError: another dtype.
         """
         points = reals("vertices", vertices, ("V", 3), np.float64)
@@ -138,7 +138,7 @@ class Scene:
             row = int(flat[0])
             raise InputError(
                 f"triangles[{row}] is {tuple(corners[row].tolist())}, which has no area in single "
-                f"precision ({len(flat)} such in all); remove it, or pass degenerate='skip'"
+                f"precision ({len(flat)} such rows in all); remove it, or pass degenerate='skip'"
             )
         rows = np.delete(np.arange(len(corners)), flat)
         if len(rows) == 0:
@@ -158,7 +158,7 @@ class Scene:
 
         Args:
             centers: shape (S, 3), real numbers; rounded to float32 once.
-            radii: shape (S,), or one number for all; rays hit a sphere with a negative
+            radii: shape (S,), or one number for all spheres; rays hit a sphere with a negative
                 radius only from the inside.
             name: the name of the scene.
             up: "y" or "z"; used by the cameras fitted to the scene.
@@ -204,7 +204,7 @@ class Scene:
 
     @property
     def hash(self) -> str:
-        """Identifies what rays can hit: 16 hexadecimal digits, equal on every machine."""
+        """The hash of what rays can hit: 16 hexadecimal digits, the same on every machine."""
         return self._compiled.hash
 
     @property
@@ -232,8 +232,8 @@ class Scene:
     def spheres(self) -> NDArray[np.float32]:
         """Center and radius of each sphere: shape (S, 4), float32, read-only, without a copy.
 
-        Radii are positive, also those of spheres that were made with a negative one, which rays
-        hit only from the inside.
+        All radii are positive, even of spheres made with a negative radius, which rays hit only
+        from the inside.
         """
         return self._compiled.spheres
 
@@ -244,7 +244,7 @@ class Scene:
 
     @property
     def source_rows(self) -> NDArray[np.int64] | None:
-        """For each primitive, its row of the given triangles; None for other scenes."""
+        """The row of each primitive in the given triangles; None for other scenes."""
         return self._source_rows
 
     @property
@@ -273,7 +273,7 @@ class Scene:
     def _image(
         self, camera: Camera | str | None, resolution: tuple[int, int] | None, samples: int
     ) -> _beambench.ImageChoice:
-        """Returns the requested image. The compiled part rejects an invalid one."""
+        """Returns the requested image; the compiled part rejects invalid images."""
         if isinstance(camera, str):
             camera = self.camera(camera)
         if camera is not None and not isinstance(camera, Camera):
@@ -309,8 +309,8 @@ class Scene:
         Args:
             kind: one of `ray_kinds`, such as `"primary"`, `"shadow"` or `"diffuse:seed=2"`; or the
                 path of a file that ends in `.rays`.
-            resolution: width and height of the image that the rays belong to or start from; None:
-                the camera's own.
+            resolution: width and height of the image whose rays these are, or from whose hits they
+                start; None: the camera's own.
             camera: the camera of that image; None: the scene's first.
             samples: rays per pixel: 1, 4, 5, 9, 16, ...
 
@@ -341,7 +341,7 @@ class Scene:
             camera: None: the scene's first.
             samples: rays per pixel: 1, 4, 5, 9, 16, ...
             shading: preview, normals, id, depth, or whitted (lights, shadows, mirrors, glass).
-            structure: one built over this scene, or a name with parameters.
+            structure: a structure built over this scene, or a name with parameters.
             threads: number of threads; 0: one per core, within the CPU quota.
 
         Returns:
@@ -374,7 +374,7 @@ class Scene:
         return _unpickled, (compiled.pickled(), list(compiled.warnings), self._source_rows)
 
     def __repr__(self) -> str:
-        """Returns name and size."""
+        """Returns the name and the size of the scene."""
         return f"<beambench.Scene '{self.name}', {self.primitives} primitives>"
 
     def _repr_html_(self) -> str:

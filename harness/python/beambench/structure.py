@@ -23,7 +23,7 @@ class Hits:
     primitive: NDArray[np.uint32]
     """The id of the primitive; NO_PRIMITIVE: a miss."""
     counters: dict[str, int] | None = None
-    """The work of all rays by name, if it was counted."""
+    """The amounts of work for all rays, by name, if the work was counted."""
 
     @property
     def hit(self) -> NDArray[np.bool_]:
@@ -56,16 +56,16 @@ class Structure:
         """Builds a structure.
 
         Args:
-            scene: the scene to build it over; kept alive by the structure.
+            scene: the scene over which the structure is built; the structure keeps it alive.
             spec: a name, with or without parameters: `"sah-bvh"`, `"samet:max_level=6"`; see
                 `structures`.
-            threads: number used to trace images, unless `trace_image` overrides it; 0: one per
-                core, within the CPU quota.
+            threads: number of threads that trace images, unless `trace_image` overrides it; 0: one
+                per core, within the CPU quota.
             parameters: further parameters: `max_level=6`.
 
         Raises:
             InputError: an unknown name or parameter, or a value out of range; the message lists
-                the valid ones.
+                the valid names or values.
         """
         if not isinstance(scene, Scene):
             raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")
@@ -92,12 +92,12 @@ class Structure:
 
         Args:
             rays: shape (N, 8), float32: origin, t_min, direction, t_max. Such an array in one
-                block of memory is used without a copy; anything else is converted first. It must
-                not be written to meanwhile.
+                block of memory is used without a copy; anything else is converted first. The
+                array must not be changed during the call.
             counters: count the work, which takes longer.
 
         Returns:
-            Arrays of shape (N,) that share the memory that the structure wrote to.
+            Arrays of shape (N,) in the memory to which the structure wrote.
 
         Raises:
             InputError: another shape, or an invalid ray; the message states its index.
@@ -113,7 +113,7 @@ class Structure:
             rays: see `closest_hits`.
 
         Returns:
-            Shape (N,), bool, sharing the memory that the structure wrote to.
+            Shape (N,), bool, in the memory to which the structure wrote.
 
         Raises:
             InputError, TypeError: see `closest_hits`.
@@ -122,7 +122,7 @@ class Structure:
         return hits.view(np.bool_)
 
     def any_hit_counters(self, rays: ArrayLike) -> dict[str, int]:
-        """Returns the work of `any_hits` by name.
+        """Returns the amounts of work of `any_hits`, by name.
 
         Args:
             rays: see `closest_hits`.
@@ -154,7 +154,7 @@ class Structure:
 
         Returns:
             Arrays of shape (height, width), the top row first; (height, width, samples) for
-            several samples. They share the memory that the structure wrote to.
+            several samples. They are in the memory to which the structure wrote.
 
         Raises:
             InputError: an unknown camera, or an invalid image.
@@ -186,7 +186,7 @@ class Structure:
         )
 
     def __repr__(self) -> str:
-        """Returns name, parameters and scene in one line."""
+        """Returns the name, the parameters and the scene in one line."""
         return f"<beambench.Structure '{self.name}' over '{self.scene.name}'>"
 
     def _repr_html_(self) -> str:

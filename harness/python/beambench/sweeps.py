@@ -15,7 +15,7 @@ from beambench.arrays import encoded
 if TYPE_CHECKING:
     import pandas as pd
 
-# Not numbers, whatever they look like: a hash may consist of digits only.
+# Columns that are not numbers, even if they look like numbers: a hash may consist of digits.
 TEXT_COLUMNS = (
     "run_id time_utc commit machine_id build_type flags isa structure_isa "
     "library_version library_geometry scene camera scene_hash rays_hash structure parameters "
@@ -30,22 +30,22 @@ def sweep(
     resume: bool = False,
     progress: bool = False,
 ) -> pd.DataFrame:
-    """Measures a sweep in this process; reports a time only if the hits are correct.
+    """Measures a sweep in this process; reports times only for cells with correct hits.
 
     This process measures all blocks, so intervals do not cover the variation between processes. For
-    times that must hold elsewhere, use `beambench run`.
+    times that must be reproducible in other processes, use `beambench run`.
 
     Args:
         config: a sweep as in harness/measure/sweep.schema.json, the path of its JSON file, or the
-            name of one of beambench's own, such as "quick".
+            name of one of beambench's own sweeps, such as "quick".
         output: folder for the whole record, empty or new; None: the record is discarded.
-        resume: continue the run in `output`, keeping every finished cell.
-        progress: report on the standard error.
+        resume: continue the run in `output`, and keep every finished cell.
+        progress: report the progress on standard error.
 
     Returns:
-        results.csv, a row for each cell; results/README.md describes the columns. Cells with wrong
-        hits have no times: see `verdict`. `attrs["summary"]` is the text of summary.txt. A notebook
-        shows a table with bars for each view.
+        The table of results.csv, with a row for each cell; results/README.md describes the columns.
+        Cells with wrong hits have no times: see `verdict`. `attrs["summary"]` is the text of
+        summary.txt. A notebook shows a table with bars for each view.
 
     Raises:
         InputError: an error in the configuration, with its place, or a problem with the folder.
@@ -64,7 +64,7 @@ def sweep(
     with tempfile.TemporaryDirectory(prefix="beambench-") as temporary:
         folder = Path(temporary) / "run" if output is None else output
         table, summary = _beambench.sweep(text, path, encoded("output", folder), resume, progress)
-        # `null` is a structure's name; only an empty field is a missing value.
+        # `null` is the name of a structure; only an empty field is a missing value.
         frame = pd.read_csv(
             os.fsdecode(table),
             keep_default_na=False,

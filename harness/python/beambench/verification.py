@@ -18,10 +18,10 @@ from beambench.structure import Hits
 Vector = tuple[float, float, float]
 
 CLASSES: tuple[str, ...] = tuple(_beambench.class_names())
-"""agree, tie, graze, structure_error (claim wrong) and oracle_error (oracle wrong)."""
+"""agree, tie, graze, structure_error (wrong claim) and oracle_error (wrong oracle)."""
 
 
-# A reason of the differ (verify_ray.cpp).
+# A reason stated by the differ (verify_ray.cpp).
 _OTHER_PRIMITIVE = "t is right, but another primitive is hit there"
 
 
@@ -51,7 +51,7 @@ class Example:
     class_name: str
     """One of CLASSES."""
     reason: str
-    """The reason for its class; empty if the class is self-explanatory."""
+    """The reason for the class; empty if the class is self-explanatory."""
     claimed_t: float | None
     """The claimed t; None: not given, or no hit."""
     claimed_point: Vector | None
@@ -65,17 +65,17 @@ class Example:
     oracle_t: float | None
     """The t of the closest hit by double-precision intersectors; None: no hit."""
     oracle_primitive: int | None
-    """The primitive of that hit."""
+    """The primitive of the oracle's hit."""
     exact_t: float | None
     """The t of the closest hit by exact arithmetic; None: no hit, or not searched."""
     exact_primitive: int | None
-    """The primitive of that hit."""
+    """The primitive of the exact hit."""
     searched: bool
     """Whether exact arithmetic judged the claim, because it differs from the oracle's hit."""
 
     @property
     def claim(self) -> str:
-        """The claim as text."""
+        """The claim in words."""
         if self.claimed_occluded is not None:
             return "some hit" if self.claimed_occluded else "no hit"
         if self.claimed_t is None and self.claimed_point is None:
@@ -110,15 +110,15 @@ class Report:
     """The findings of a verification."""
 
     verdict: str
-    """ok; mismatch: at least one structure_error; grazes: more than max(2, 1e-4 x rays) of them."""
+    """ok; mismatch: any structure_error; grazes: more than max(2, 1e-4 x rays) grazes."""
     rays: int
     """The number of rays verified."""
     hits: int
-    """The number of these that hit anything, by the oracle."""
+    """The number of rays that hit anything, by the oracle."""
     counts: dict[str, int]
     """The number of rays in each class."""
     classes: NDArray[np.uint8]
-    """The class of each ray, as index in CLASSES: uint8, shape (N,) or that of the given Hits."""
+    """The class of each ray, an index in CLASSES: uint8, shape (N,) or the shape of the Hits."""
     examples: list[Example]
     """Errors first; at most ten of each class except agree."""
 
@@ -129,7 +129,7 @@ class Report:
 
     @property
     def hint(self) -> str:
-        """What is probably wrong with the ids, where t is right and they are not; else empty."""
+        """The probable cause of wrong ids at the right t; empty if there are none."""
         wrong = [example for example in self.examples if example.reason == _OTHER_PRIMITIVE]
         if not wrong:
             return ""
@@ -156,8 +156,8 @@ class Report:
             lines.append(self.hint)
         if self.counts["oracle_error"] > 0:
             lines.append(
-                "oracle_error: the claim is right there, and the oracle is not, by exact "
-                "arithmetic; such rays count as right"
+                "oracle_error: by exact arithmetic, the claim is right and the oracle is "
+                "wrong; such rays count as right"
             )
         return "\n".join(lines)
 
@@ -184,7 +184,7 @@ class Report:
 
 @dataclass(frozen=True, eq=False)
 class _Claims:
-    """The given arrays, converted; None for those not given."""
+    """The given arrays, converted; None for arrays that were not given."""
 
     t: NDArray[np.float32] | None
     point: NDArray[np.float32] | None
@@ -231,7 +231,7 @@ def _require_form(given: dict[str, ArrayLike | None]) -> None:
     names = " and ".join(name for name, array in given.items() if array is not None)
     wanted = (
         "pass t or point, with or without primitive or triangle, for closest hits; or only "
-        "occluded for any hits"
+        "occluded for any-hit queries"
     )
     if not names:
         raise TypeError(f"no hits are given; {wanted}")
@@ -270,24 +270,25 @@ def verify(
     """Verifies the hits that any program reports for a list of rays.
 
     The claims are closest hits (`hits`, a whole result of `closest_hits` or `trace_image`; or `t`
-    or `point`, optionally with `primitive` or `triangle`) or any hits (only `occluded`). A claim
-    is compared with the hit of an oracle in double precision, with tolerances for rounding to
-    float32; disputes are decided by exact arithmetic. A ray that misses at the edge between two
-    triangles only grazes: whether closed meshes leak there is verified by the conformance kit
-    (`beambench verify --kit`).
+    or `point`, optionally with `primitive` or `triangle`) or any-hit results (only `occluded`). A
+    claim is compared with the hit of an oracle in double precision, with tolerances for rounding to
+    float32; disputes are decided by exact arithmetic. A miss at the edge between two triangles
+    counts as a graze; the conformance kit (`beambench verify --kit`) verifies whether rays leak out
+    of closed meshes at edges.
 
     Args:
         scene: the scene against which the rays were traced.
         rays: shape (N, 8), float32: origin, t_min, direction, t_max; used in place, or converted
             first.
-        hits: what a structure returned, with N hits in any shape: those of an image, from
+        hits: the result of a structure, with N hits in any shape. The hits of an image, from
             `Structure.trace_image`, are in the order of `Scene.rays("primary", ...)`.
         t: shape (N,), real numbers, rounded to float32: the hit is at origin + t * direction;
             infinity for a miss.
         point: shape (N, 3), real numbers, rounded to float32: the point that is hit; three
             infinities: a miss.
-        primitive: shape (N,), integers: the id in the scene, not that of a triangle where a polygon
-            has several (`Scene.triangle_primitives` maps them); -1 or NO_PRIMITIVE: a miss.
+        primitive: shape (N,), integers: the id in the scene. If polygons have several triangles,
+            this is not the triangle's row (`Scene.triangle_primitives` maps rows to ids); -1 or
+            NO_PRIMITIVE: a miss.
         triangle: shape (N,), integers: the row of `Scene.triangles`; -1 or NO_PRIMITIVE: a miss.
         occluded: shape (N,), bool, or integers 0 and 1: whether the ray hits anything.
 

@@ -2,12 +2,12 @@
 
 The ray tracer tests every triangle against every ray in numpy, by Möller and Trumbore's test in
 float32. The module verifies its hits, and the plot shows the class of each pixel. An epsilon that
-is too large for the mesh, a common mistake, loses triangles seen edge-on:
+is too large for the mesh, a common mistake, loses hits on triangles seen edge-on:
 
     python verify_mesh.py                    # ok
     python verify_mesh.py --epsilon 0.001    # mismatch
 
-Exit codes: 0 the hits are correct, 1 they are not, 2 invalid arguments.
+Exit codes: 0: the hits are correct; 1: they are not; 2: invalid arguments.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def plot(report: bb.Report, t: Floats, size: int, file: Path) -> None:
 
 
 def main() -> int:
-    """Traces, verifies, prints and plots."""
+    """Traces the scene, verifies the hits, prints the report and plots the classes."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

@@ -43,7 +43,7 @@ inline constexpr const char* kEncodeImage = "beambench_encode_image";
 
 /// Returns the function, loading the shared object on the first call from the folder of the program
 /// (or of the Python module) that contains this code, or from ../lib/beambench beside it. Throws
-/// InputError if it is in neither or cannot be loaded.
+/// InputError if the shared object is in neither place or cannot be loaded.
 EncodeImage& image_encoder();
 
 }  // namespace beambench::render

@@ -17,7 +17,7 @@ namespace beambench::render {
 inline constexpr int kGlyphHeight = 7;   ///< in dots
 inline constexpr int kGlyphAdvance = 6;  ///< five dots and a gap
 
-/// Returns the width in pixels of a text drawn with dots of `scale` x `scale` pixels.
+/// Returns the width in pixels of a string drawn with dots of `scale` x `scale` pixels.
 int text_width(std::string_view text, int scale);
 
 /// Draws lower-case letters, digits, blanks and . , : _ - + = ( ) /; anything else is drawn as a
@@ -37,7 +37,7 @@ struct LegendLayout {
   int scale, margin, width;
 };
 
-/// Returns the picture, centered, above that many empty rows for a legend.
+/// Returns the picture, centered, above `height` empty rows for a legend.
 Image above_legend(const Image& picture, const LegendLayout& layout, int height);
 
 /// Colors that people with any kind of color vision can distinguish: those of Okabe and Ito, "Color

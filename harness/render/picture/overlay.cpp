@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kThickness = 1.0;
 
-/// The minimum distance from the camera's plane to which an edge is followed, relative to its
-/// farther end's depth. There every point appears at infinity.
+/// The minimum depth to which an edge is followed, relative to the depth of its farther end. At
+/// this depth, every point appears at infinity.
 constexpr double kNearest = 1e-6;
 
 /// The visible part of an edge on the image: the part in front of the camera.
@@ -96,7 +96,7 @@ std::optional<SeenEdge> project(const BoxEdge& edge, const Projection& projectio
 }
 
 constexpr double kInfiniteDepth = std::numeric_limits<double>::infinity();
-/// The relative depth error within which points of a box's own surface are computed.
+/// The maximum relative error of the computed depths of points on a box's own surface.
 constexpr double kRounding = 1e-6;
 
 /// Returns where a ray enters a box; infinity if it misses or starts inside.

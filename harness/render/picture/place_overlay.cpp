@@ -118,7 +118,7 @@ std::vector<LegendEntry> overlay_tiles(Image& image, const PlacedRays& rays) {
   draw(image, rays);
   return {entry_of_beams("tiles", rays), entry_of("rays in blocks", rays, Way::kInOrder),
           entry_of("passed on to single rays", rays, Way::kHandedOver),
-          entry_of("background without rays", rays, Way::kBackground)};
+          entry_of("background, no rays", rays, Way::kBackground)};
 }
 
 std::vector<LegendEntry> overlay_pencil(Image& image, const PlacedRays& rays) {

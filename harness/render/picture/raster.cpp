@@ -35,7 +35,8 @@ void LineLayer::draw_on(Image& image, const Image& ground, const glm::vec3& colo
     const Pixel& line = pixels_[i];
     const glm::vec3& below = ground.pixels()[i];
     const glm::vec3 cleared = glm::mix(image.pixels()[i], below, line.coverage);
-    // The line adds as much as it has cleared, so that full strength simply covers.
+    // The line adds as much as it has cleared, so that a line of full strength simply covers what
+    // is below.
     image.pixels()[i] = cleared + line.strength * (color - below);
   }
 }

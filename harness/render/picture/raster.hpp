@@ -55,7 +55,7 @@ void for_each_pixel(const PixelSegment& line, double thickness, int width, int h
   const glm::dvec2 first = line.from + whole * part->first;
   const glm::dvec2 last = line.from + whole * part->second;
 
-  // Along the axis on which the line is longer, and across it over the line's width.
+  // Steps along the axis on which the line is longer, and across it over the line's width.
   const int main = std::abs(whole.x) >= std::abs(whole.y) ? 0 : 1;
   const int cross = 1 - main;
   const glm::ivec2 sizes(width, height);

@@ -8,8 +8,8 @@ namespace beambench::render {
 /// Maps linear light to display values. Uses the curve of Reinhard, Stark, Shirley and Ferwerda
 /// ("Photographic tone reproduction for digital images", SIGGRAPH 2002, equation 4), including the
 /// amount of light that becomes white. It is applied to a pixel's brightest component, because a
-/// display clips that one first; the others keep their ratio to it, which preserves hue and
-/// saturation.
+/// display clips that one first; the other components keep their ratio to it, which preserves hue
+/// and saturation.
 class ToneCurve {
  public:
   /// The display value of `white` after the exposure; 254 of 255 in an 8-bit file.
@@ -32,12 +32,12 @@ class ToneCurve {
   double white_;
 };
 
-/// Chooses the curve for a picture. White is chosen so that at most one in a hundred of its lit
-/// pixels is brighter. If the mean light (the logarithmic mean of luminances) is between the low
-/// and the high key of Reinhard et al., or nothing is too bright to be shown, the exposure stays. A
-/// darker picture is raised to the low key; a brighter one is lowered to the high key or until
-/// nothing is too bright. Pixels without light are ignored; a completely black picture gets a curve
-/// that changes nothing.
+/// Chooses the curve for a picture. White is chosen so that at most 1% of the lit pixels are
+/// brighter. If the mean light (the logarithmic mean of luminances) is between the low and the high
+/// key of Reinhard et al., or nothing is too bright to be shown, the exposure stays. A darker
+/// picture is raised to the low key; a brighter one is lowered to the high key or until nothing is
+/// too bright. Pixels without light are ignored; a completely black picture gets a curve that
+/// changes nothing.
 ToneCurve choose_tone(const Image& image);
 
 /// Applies the curve. Pixels that are black or not finite stay as they are.

@@ -37,7 +37,7 @@ void consume(Transport& transport, TaskWorker& worker, double heartbeat_interval
              Bytes ready_report) {
   ProcessReport report;
   double last_sent = 0.0;
-  /// Waits until the message has left, as MPI_Send does.
+  /// Sends a message and waits until it has left, as MPI_Send does.
   const auto send = [&](Tag tag, Bytes bytes) {
     transport.send(kProducer, tag, std::move(bytes));
     transport.flush();

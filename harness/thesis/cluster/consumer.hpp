@@ -1,5 +1,5 @@
 #pragma once
-// The process that performs the producer's tasks.
+// A process that performs the producer's tasks.
 
 #include <span>
 

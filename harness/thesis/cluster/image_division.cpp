@@ -53,9 +53,9 @@ std::vector<Share> of_equal_cost(std::span<const double> costs, std::size_t shar
 }
 
 /// Divides tasks into messages of decreasing size. A producer can send about a thousand messages
-/// before the others have to wait for it, so each consumer's next message has three quarters of its
-/// share of the remaining tasks, but at least a fifth of its share of all tasks. It has at most a
-/// 1,024th of all tasks, so that even with few consumers, little is lost when one fails.
+/// before consumers have to wait for it. Therefore each message has three quarters of a consumer's
+/// share of the remaining tasks, but at least a fifth of its share of all tasks. A message has at
+/// most a 1,024th of all tasks, so that even with few consumers, little is lost when one fails.
 std::vector<Share> falling(std::size_t tasks, std::size_t consumers) {
   const std::size_t most = std::max<std::size_t>(1, tasks / 1024);
   const std::size_t least = std::clamp<std::size_t>(tasks / (5 * consumers), 1, most);

@@ -1,5 +1,5 @@
 #pragma once
-// Divides an image among consumers into parts, and these into messages.
+// Divides an image into parts, and distributes the parts over messages to consumers.
 
 #include <cstddef>
 #include <optional>
@@ -14,18 +14,18 @@ namespace beambench::cluster {
 /// The kinds of tasks and their distribution. All except the first three are static (thesis,
 /// section 2.3.2.1): each consumer receives all its work in one message.
 enum class Work {
-  kBeams,       ///< the producer's beams to occupied leaves, to whoever waits (thesis, chapter 6)
-  kBlocks,      ///< blocks of individual rays, to whoever waits
+  kBeams,       ///< the producer's beams to occupied leaves, to any waiting consumer (chapter 6)
+  kBlocks,      ///< blocks of individual rays, to any waiting consumer
   kTiles,       ///< blocks whose beams the consumers make, in messages of decreasing size
   kContiguous,  ///< neighboring rows of individual rays (Hu and Foley 1985)
-  kInterlaced,  ///< of P consumers, the i-th gets the rows i, i + P, ... (Isler and Özgüç 1991)
-  kWindows,     ///< the same with blocks instead of rows
+  kInterlaced,  ///< the i-th of P consumers gets the rows i, i + P, ... (Isler and Özgüç 1991)
+  kWindows,     ///< like kInterlaced, with blocks instead of rows
   kPrePass      ///< blocks by their estimated costs (Salmon and Goldsmith 1988; Priol 1989)
 };
 
 /// Returns the name of the work on the command line.
 std::string_view name_of(Work work);
-/// Returns the work of that name; nothing for any other word.
+/// Returns the work of that name; nothing for any other string.
 std::optional<Work> work_named(std::string_view name);
 bool is_static(Work work);
 
@@ -44,7 +44,7 @@ class TileOrder {
   TileOrder(int width, int height, int size);
 
   std::size_t count() const { return columns_ * rows_; }
-  /// Returns the i-th tile; smaller at the right and lower border.
+  /// Returns the i-th tile; tiles are smaller at the right and lower border.
   accel::beam::PixelRect operator[](std::size_t i) const;
 
  private:
@@ -81,8 +81,8 @@ struct Among {
 /// Divides the tasks into shares in the order of sending; no share is empty.
 std::vector<Share> divide(ImageDivision division, std::size_t tasks, const Among& among);
 
-/// Returns how the tasks of that work are divided. Must not be called for kBeams and kBlocks, which
-/// are not divided in advance.
+/// Returns the division of the tasks of that work. Must not be called for kBeams and kBlocks, whose
+/// tasks are not divided in advance.
 ImageDivision division_of(Work work);
 
 }  // namespace beambench::cluster

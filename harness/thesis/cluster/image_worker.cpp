@@ -11,7 +11,7 @@
 namespace beambench::cluster {
 namespace {
 
-/// What a run in the results of `write_colors` contains.
+/// The contents of a run in the results of `write_colors`.
 enum class Part : std::uint8_t { kPixels, kSample };
 
 /// Returns the number of samples up to the first gap.

@@ -1,6 +1,6 @@
 #pragma once
-// The work of a consumer: computes hits or light for beams and blocks, and encodes and collects
-// them.
+// The work of a consumer: computes hits or light for beams and blocks, encodes these results, and
+// collects them.
 
 #include <cstdint>
 #include <span>
@@ -32,7 +32,7 @@ void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes);
 /// Collects hits.
 class HitSink : public ResultSink {
  public:
-  /// Starts without hits. The buffer must outlive the sink.
+  /// The buffer must be without hits, and must outlive the sink.
   explicit HitSink(accel::HitBuffer& hits) : hits_(&hits) {}
   std::size_t accept(std::span<const std::byte> result) override;
 
@@ -40,9 +40,9 @@ class HitSink : public ResultSink {
   accel::HitBuffer* hits_;
 };
 
-/// Appends the light of samples. A pixel with all its samples here takes 12 bytes, for their mean.
-/// Other samples take 28 bytes each, in double, so that the sink can add a pixel's samples in
-/// order. `heartbeat` is called from time to time.
+/// Appends the light of samples. A pixel whose samples are all given takes 12 bytes, for their
+/// mean. Every other sample takes 29 bytes; its light is in double precision, so that the sink can
+/// add a pixel's samples in order. `heartbeat` is called from time to time.
 void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
                   const render::Whitted& tracer, render::Whitted::Progress& progress,
                   const Heartbeat& heartbeat, Bytes& bytes);
@@ -71,7 +71,7 @@ class ColorSink : public ResultSink {
 /// Records the samples decided by a beam.
 class DecidedSamples : public accel::beam::NoBeamWatch {
  public:
-  /// Restricts the beams' samples to a part of the image; empty: all.
+  /// Restricts the beams' samples to a part of the image; if `part` is empty, to all of it.
   void want(std::vector<accel::beam::SampleLattice> part) { part_ = std::move(part); }
   std::span<const accel::beam::SampleLattice> chosen(
       std::span<const accel::beam::SampleLattice> all) const {
@@ -106,7 +106,7 @@ class ImageWorker : public TaskWorker {
   void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
   /// Returns the number of samples in its results so far.
   std::uint64_t samples() const { return samples_; }
-  /// Writes its census of rays.
+  /// Writes the worker's census of rays.
   void write_counts(Bytes& bytes) const override;
 
  private:

@@ -31,11 +31,11 @@ void write_version(ByteWriter& writer) {
   writer.put_text(this_version());
 }
 
-/// Reads the version, with which every process's first message begins in all versions.
+/// Reads the version. In all versions, every process's first message begins with it.
 std::string read_version(ByteReader& reader) {
   if (reader.get<std::uint32_t>() != kMagic) {
     throw InputError(
-        "a process of this run runs a different program; start the same one everywhere");
+        "a process of this run has a different program; start the same program everywhere");
   }
   return reader.get_text();
 }
@@ -160,7 +160,7 @@ ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, con
   reader.get(members(ready_report));
   if (ready_report.identity.scene != mine.scene) {
     throw InputError(
-        fmt::format("{} has a different scene under that name (hash {:016x}, process 0 has "
+        fmt::format("{} has a different scene of that name (hash {:016x}; process 0 has "
                     "{:016x}); use the same file for all of them",
                     who, ready_report.identity.scene, mine.scene));
   }

@@ -24,17 +24,17 @@ struct Job {
   bool light = false;  ///< consumers send light; otherwise hits
   render::WhittedOptions whitted;
   int split_level =
-      0;  ///< level of the cells that divide the scene; 0: every process has all of it
-  SceneDivision division = SceneDivision::kPrimitives;  ///< of those cells among processes
+      0;  ///< level of the cells that divide the scene; 0: every process has the whole scene
+  SceneDivision division = SceneDivision::kPrimitives;  ///< the division of those cells
   std::string work;                                     ///< the kind of tasks, for kept results
-  std::string stored;  ///< folder in which every process keeps its results; empty: they are sent
+  std::string stored;  ///< folder in which every process keeps its results; empty: results are sent
   double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
 };
 
 /// Returns the structure of a job with its parameters. Throws InputError if it is not `beam`.
 accel::StructureChoice beam_choice(const Job& job);
 
-/// Returns the image of a job over its scene, which must outlive it.
+/// Returns the image of a job over its scene, which must outlive the image.
 rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene);
 
 /// Encodes the job, preceded by the version of this program.
@@ -42,11 +42,11 @@ Bytes write_job(const Job& job);
 /// Reads a job. Throws InputError if the producer is another version of this program.
 Job read_job(std::span<const std::byte> bytes);
 
-/// The properties that must be equal in all processes for a beam to have the same meaning.
+/// The properties that must be equal in all processes, so that a beam has the same meaning in each.
 struct Identity {
-  std::uint64_t scene = 0;  ///< hash of all that is visible: primitives, surfaces, lights, cameras
+  std::uint64_t scene = 0;  ///< hash of everything visible: primitives, surfaces, lights, cameras
   std::uint64_t primitives = 0;
-  std::uint64_t nodes = 0;  ///< of the octree of the whole scene; 0 if no process has it
+  std::uint64_t nodes = 0;  ///< of the whole scene's octree; 0 if no process has this octree
   std::uint64_t references = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };

@@ -43,8 +43,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// A task with its result; nothing at the end of the file, or if the rest of it is truncated or
-/// damaged.
+/// A task with its result.
 struct Record {
   std::span<const std::byte> task;
   std::span<const std::byte> result;

@@ -1,5 +1,5 @@
 #pragma once
-// Keeps finished results of a picture on disk until it is written, for `--resume`.
+// Keeps finished results on disk until the picture is written, for `--resume`.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,8 +22,8 @@ namespace beambench::cluster {
 /// Returns the properties that results for the same picture share, one per line.
 std::string picture_key(const Job& job, const Identity& identity);
 
-/// A file of results to which one process appends. Added results survive the death of the process;
-/// the last one may be incomplete, and is then not read.
+/// A file to which one process appends results. Added results survive the death of the process;
+/// only the last result may be incomplete, and is then ignored.
 class KeptFile {
  public:
   /// Creates a new file in the folder, which must exist. Throws InputError.
@@ -56,8 +56,8 @@ class KeptFolder {
   KeptFolder& operator=(const KeptFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Calls `visit` once for each task with its result. Throws InputError for a file of another
-  /// picture, stating the difference.
+  /// Calls `visit` once for each finished task, with its result. Throws InputError for a file of
+  /// another picture, stating the difference.
   void read(const std::string& key,
             const std::function<void(std::span<const std::byte> task,
                                      std::span<const std::byte> result)>& visit) const;
@@ -72,7 +72,7 @@ class KeptFolder {
 /// Tasks in the form in which they were sent.
 using TaskSet = std::set<Bytes>;
 
-/// Skips the finished tasks.
+/// Provides the tasks of another source, except those that are finished.
 class RemainingSource : public TaskSource {
  public:
   RemainingSource(std::unique_ptr<TaskSource> all, TaskSet finished)
@@ -84,7 +84,7 @@ class RemainingSource : public TaskSource {
   TaskSet finished_;
 };
 
-/// Keeps results in the process that made them, and returns a receipt for each.
+/// Keeps results in the process that made them, and returns a receipt for each result.
 class StoringWorker : public TaskWorker {
  public:
   /// All arguments must outlive this object.

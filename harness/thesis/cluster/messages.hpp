@@ -1,5 +1,5 @@
 #pragma once
-// Encodes messages as bytes: numbers, texts, and parcels of several tasks or results.
+// Encodes messages as bytes: numbers, strings, and parcels of several tasks or results.
 
 #include <bit>
 #include <cstddef>
@@ -139,7 +139,7 @@ class ParcelWriter {
   };
 
   Bytes bytes_;
-  std::size_t head_ = 0;  ///< of the item being written
+  std::size_t head_ = 0;  ///< position of the head of the item being written
   std::size_t items_ = 0;
 };
 

@@ -30,7 +30,7 @@ void report(const std::string& message) {
   base::report_error("beambench-cluster", message, base::kInvalidInput);
 }
 
-/// Sleeps; returns whether to continue, which is false once a stop is requested.
+/// Sleeps. Returns whether to continue: false once a stop has been requested.
 bool sleep_for(const std::stop_token& stop, Seconds time) {
   std::mutex mutex;
   std::condition_variable_any changed;
@@ -39,8 +39,8 @@ bool sleep_for(const std::stop_token& stop, Seconds time) {
   return !stop.stop_requested();
 }
 
-/// Ends this process with a message unless it is destroyed in time; mpirun then ends the others.
-/// Used for MPI calls that wait for all processes without a time limit.
+/// Unless this object is destroyed in time, ends the process with a message; mpirun then ends the
+/// others. Used for MPI calls that wait for all processes without a time limit.
 class Deadline {
  public:
   Deadline(double seconds, std::string message, int exit_code)
@@ -65,7 +65,7 @@ class MpiSession::SignsOfLife {
     MPI_Comm_rank(processes_, &self_);
     int count = 0;
     MPI_Comm_size(processes_, &count);
-    if (!is_producer()) count = kProducer + 1;  // it hears only from the producer
+    if (!is_producer()) count = kProducer + 1;  // it receives signs only from the producer
     for (ProcessId process = 0; process < count; ++process) {
       if (process != self_) others_.push_back({process, Clock::now()});
     }
@@ -150,7 +150,7 @@ class MpiSession::SignsOfLife {
   std::vector<Other> others_;
   std::atomic<bool> silence_is_allowed_ = false;
   bool is_over_ = false;
-  std::jthread thread_;  // last: it uses the others
+  std::jthread thread_;  // declared last, because it uses the other members
 };
 
 MpiSession::MpiSession(int& argc, char**& argv, double timeout)
@@ -173,7 +173,7 @@ MpiSession::~MpiSession() {
   }
   signs_->end();
   watchdog_.require_end();
-  // The producer knows when everything is written, so it gives up first.
+  // The producer gives up first, because it has written all files.
   const Deadline deadline(
       signs_->is_producer() ? timeout_ : kLongestEnd * timeout_,
       fmt::format("a process did not end within {} s; all requested files are written", timeout_),

@@ -1,5 +1,5 @@
 #pragma once
-// MPI from start to end, and how a run ends when a process stops.
+// The use of MPI from start to end, and the end of a run in which a process stops.
 
 #include <memory>
 
@@ -8,11 +8,12 @@
 
 namespace beambench::cluster {
 
-/// The MPI session of a program, constructed before anything else. If a process or its machine is
-/// stopped, all others end within the time limit instead of waiting, with a message on stderr and
-/// exit code 2. To detect this whatever the processes are doing, a thread of each process sends
-/// signs of life to the producer, and the producer's thread sends them to all others. This requires
-/// that MPI allows threads (MPI_THREAD_MULTIPLE); otherwise only the start has a time limit.
+/// The MPI session of a program, constructed before anything else. If a process or its machine
+/// stops, all other processes end within the time limit instead of waiting, with a message on
+/// stderr and exit code 2. To detect this whatever the processes are doing, a thread of each
+/// process sends signs of life to the producer, and the producer's thread sends them to all others.
+/// This requires that MPI allows threads (MPI_THREAD_MULTIPLE); otherwise only the start has a time
+/// limit.
 class MpiSession {
  public:
   /// `timeout` is the limit in seconds for the start of MPI, for any silence after that, and for
@@ -24,7 +25,8 @@ class MpiSession {
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
-  /// Called on the producer: from now on, other processes may be silent, and the caller handles it.
+  /// Called on the producer. From then on, other processes may be silent, and the caller handles
+  /// silence.
   void allow_silence();
 
   /// Ends all processes immediately, including those that do not respond.

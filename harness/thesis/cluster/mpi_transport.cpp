@@ -21,8 +21,8 @@ Message receive(MPI_Comm processes, const MPI_Status& coming) {
   return message;
 }
 
-/// Polls without a pause at first, so that a prompt message is received promptly; then sleeps for
-/// increasing times, to leave the processor to others.
+/// At first polls without a pause, so that a quick reply is received immediately; then sleeps for
+/// increasing times, to leave the processor to other processes.
 class Backoff {
  public:
   using Clock = std::chrono::steady_clock;
@@ -38,8 +38,8 @@ class Backoff {
 
  private:
   /// The time for which it polls without a pause. A message and its reply take about 0.1 ms. With
-  /// three processes on two processors, 0.5 to 20 ms made no difference, and shorter times cost up
-  /// to a third.
+  /// three processes on two processors, values from 0.5 to 20 ms made no difference; shorter values
+  /// made runs up to a third slower.
   static constexpr std::chrono::milliseconds kAwake{2};
   static constexpr std::chrono::microseconds kLongest{200};
   Clock::time_point sleeps_from_ = Clock::now() + kAwake;
@@ -60,7 +60,7 @@ struct MpiTransport::Mpi {
   Message receive_next();
 };
 
-/// Frees the messages that have left, with one MPI_Testsome for all.
+/// Frees the messages that have left, with one call of MPI_Testsome.
 void MpiTransport::Mpi::forget_what_left() {
   if (sending.empty()) return;
   int left = 0;

@@ -16,7 +16,7 @@ class MpiTransport : public Transport {
     kBlocking   ///< in MPI_Recv, with no time limit: for a simulation, where waiting is exact
   };
   explicit MpiTransport(Waiting waiting);
-  /// Messages that have not left by then are lost.
+  /// Messages that have not left yet are lost.
   ~MpiTransport() override;
   MpiTransport(const MpiTransport&) = delete;
   MpiTransport& operator=(const MpiTransport&) = delete;

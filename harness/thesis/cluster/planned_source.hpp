@@ -1,5 +1,5 @@
 #pragma once
-// Plans the messages of tasks before the first is sent.
+// Plans the messages that contain tasks before the first one is sent.
 
 #include <cstddef>
 #include <span>
@@ -32,7 +32,7 @@ class PlannedSource : public TaskSource {
 };
 
 /// Estimates the CPU seconds of each block's pixels by tracing, with `worker`, one pixel in each 16
-/// x 16 (in a smaller block, the middle one): the low-quality preprocessing image of Salmon and
+/// x 16 (in a smaller block, the middle pixel): the low-quality preprocessing image of Salmon and
 /// Goldsmith (1988) and Priol and Bouatouch (1989).
 std::vector<double> estimate_costs(std::span<const accel::beam::PixelRect> blocks,
                                    TaskWorker& worker);

@@ -35,7 +35,7 @@ ClusterReport Producer::run() {
   return std::move(report_);
 }
 
-/// Shuts consumers down after their last result, and performs lost tasks itself.
+/// Shuts consumers down after their last result. Performs lost tasks itself if no consumer is left.
 void Producer::finish() {
   shut_down_idle();
   while (!open_.empty()) {

@@ -17,9 +17,9 @@ namespace beambench::cluster {
 struct ProducerOptions {
   std::size_t batch = 1;          ///< tasks per message
   int in_flight = 1;              ///< messages that a consumer may hold
-  bool consumes = false;          ///< perform tasks itself while no consumer waits
+  bool consumes = false;          ///< the producer performs tasks while no consumer waits
   double timeout = 30.0;          ///< seconds after which a silent consumer is declared lost
-  double startup_timeout = 60.0;  ///< seconds after which it starts alone if no consumer is ready
+  double startup_timeout = 60.0;  ///< seconds to wait for a first consumer before starting alone
   /// Called once with each task and its result; may be empty.
   std::function<void(std::span<const std::byte> task, std::span<const std::byte> result)> keep;
 };
@@ -29,9 +29,9 @@ struct ProducerOptions {
 /// the results that have arrived. When there are no more tasks, each consumer is shut down after
 /// its last result.
 ///
-/// A consumer that is silent for too long is declared lost: its tasks go to the others, or are
-/// performed here if none is left. If it responds again, it receives work again. Of duplicate
-/// results, only the first is used.
+/// A consumer that is silent for too long is declared lost: its tasks go to the other consumers, or
+/// are performed by the producer if no consumer is left. If it responds again, it receives work
+/// again. Of duplicate results, only the first is used.
 class Producer {
  public:
   /// Checks a consumer's ready report; throws InputError if it does not match, which ends the run.
@@ -41,8 +41,8 @@ class Producer {
   Producer(Transport& transport, TaskSource& source, ResultSink& sink, TaskWorker& own, Check check,
            const ProducerOptions& options);
 
-  /// Runs all tasks, from the first to the last result. If it throws, it has shut the consumers
-  /// down.
+  /// Runs all tasks, from the first to the last result. If an exception is thrown, the consumers
+  /// have been shut down.
   ClusterReport run();
 
  private:

@@ -37,7 +37,7 @@ Json process_json(const ClusterRun& run, std::size_t process) {
   return json;
 }
 
-/// Returns the noun for a number of tasks of a run.
+/// Returns the plural noun for the tasks of a run.
 std::string_view tasks_of(const ClusterRun& run) {
   switch (work_named(run.work).value_or(Work::kBeams)) {
     case Work::kTiles:

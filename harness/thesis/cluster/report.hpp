@@ -30,7 +30,7 @@ struct Traffic {
 nlohmann::ordered_json to_json(const Traffic& traffic);
 nlohmann::ordered_json to_json(const render::RayCensus& census);
 
-/// What a process did. Wall times are those of the transport's clock.
+/// The work of a process. Wall times are those of the transport's clock.
 struct ProcessReport {
   std::uint64_t tasks = 0;
   std::uint64_t samples = 0;  ///< number of samples in its results
@@ -41,7 +41,7 @@ struct ProcessReport {
   Traffic from_producer;
   Traffic to_producer;
   Bytes counted;                   ///< `TaskWorker::write_counts`
-  bool final_report_came = false;  ///< of a consumer
+  bool final_report_came = false;  ///< whether a consumer's final report has arrived
 };
 
 /// One task, in the order of creation.
@@ -50,7 +50,7 @@ struct TaskReport {
   double walk_seconds = 0.0;      ///< CPU time of the producer since the previous task
   double work_seconds = 0.0;      ///< CPU time of the task
   double accept_seconds = 0.0;    ///< CPU time of the producer for the task's result
-  double estimate_seconds = 0.0;  ///< its expected time, if it was estimated
+  double estimate_seconds = 0.0;  ///< the expected time of the task, if it was estimated
   std::size_t samples = 0;
   std::size_t task_bytes = 0;
   std::size_t result_bytes = 0;
@@ -59,8 +59,8 @@ struct TaskReport {
 struct ClusterReport {
   double seconds = 0.0;            ///< wall time from the first beam to the last result
   double walk_seconds = 0.0;       ///< CPU time in which the producer made tasks
-  double last_walk_seconds = 0.0;  ///< the part of it after the last task
-  double accept_seconds = 0.0;     ///< CPU time in which it collected results
+  double last_walk_seconds = 0.0;  ///< the part of `walk_seconds` after the last task
+  double accept_seconds = 0.0;     ///< CPU time in which the producer collected results
   double producer_wait_seconds = 0.0;
   std::vector<ProcessReport> processes;  ///< by `ProcessId`
   std::vector<TaskReport> tasks;
@@ -86,12 +86,12 @@ struct ClusterRun {
   std::size_t batch = 1;
   int in_flight = 1;
   bool producer_consumes = false;
-  bool stored = false;                     ///< results stayed with the processes until the end
+  bool stored = false;                     ///< processes kept their results until the end
   std::size_t resumed_tasks = 0;           ///< tasks of an interrupted run that were not repeated
   double pre_pass_seconds = 0.0;           ///< CPU time of the producer, before the first task
   std::vector<ReadyReport> ready_reports;  ///< by process; the producer's own is the first
   ClusterReport report;
-  std::uint64_t result_hash = 0;  ///< of the hits, or of the picture's light
+  std::uint64_t result_hash = 0;  ///< hash of the hits, or of the picture's light
 };
 
 /// Returns totals, and the report of each process.

@@ -70,7 +70,7 @@ struct WorkerState {
             build_seconds,
             tracer->statistics().bytes};
   }
-  /// Returns the key for results of this picture.
+  /// Returns the key of this picture's results.
   std::string key(Job job) const {
     job.resolution = image.resolution;
     return picture_key(job, ready_report().identity);
@@ -118,7 +118,7 @@ Plan plan_tiles(const ClusterRequest& request, const WorkerState& state, int con
   std::vector<Share> messages;
   for (const Share& share : shares) {
     Share& message = messages.emplace_back();
-    // If some tiles are finished, the rest consists of several ranges.
+    // If some tiles are finished, the remaining tiles form several ranges.
     for (std::size_t i = 0; i < share.size();) {
       const std::size_t first = left[share[i]];
       std::size_t count = 1;
@@ -220,8 +220,8 @@ class Result {
   std::optional<ColorSink> color_sink_;
 };
 
-/// The producer's part in keeping results. Reads those of an interrupted run, and either keeps
-/// results as they arrive or, at the end, collects those that the processes kept themselves.
+/// The producer's part in keeping results. Reads the results of an interrupted run. Either keeps
+/// results as they arrive or, at the end, collects the results that the processes kept themselves.
 class Keeper {
  public:
   /// Passes existing results to the sink. Throws InputError if they belong to another picture. A
@@ -264,8 +264,8 @@ class Keeper {
   }
 
  private:
-  /// Keeps a result. Continues after a failure, because a picture that cannot be resumed is better
-  /// than none.
+  /// Keeps a result. After a failure, the run continues without keeping results: a picture that
+  /// cannot be resumed is better than no picture.
   void keep(std::span<const std::byte> task, std::span<const std::byte> result) {
     if (!file_) return;
     try {
@@ -287,7 +287,7 @@ class Keeper {
     });
     if (found == tasks) return;
     throw InputError(
-        fmt::format("{}: it contains the results of {} of {} tasks; with --results stored, all "
+        fmt::format("{}: contains the results of {} of {} tasks; with --results stored, all "
                     "processes must see the same folder",
                     folder_->path().string(), found, tasks));
   }
@@ -309,7 +309,7 @@ void write_files(const ClusterRequest& request, const WorkerState& state, const 
   if (!request.tasks.empty()) write_file(request.tasks, task_table(run.report));
 }
 
-/// Returns the run without its report.
+/// Returns the record of the run without its report.
 ClusterRun describe(const ClusterRequest& request, const WorkerState& state, int processes) {
   ClusterRun run;
   run.job = request.job;

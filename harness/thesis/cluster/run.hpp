@@ -25,7 +25,7 @@ struct ClusterRequest {
   Job job;
   ProducerOptions producer;
   Work work = Work::kBeams;
-  bool batch_given = false;  ///< tiles: equal numbers in each message, instead of decreasing ones
+  bool batch_given = false;  ///< for tiles: equal, not decreasing numbers in the messages
   int block_size = 32;
   render::Shading shading = render::Shading::kPreview;
   std::string picture;  ///< file; empty: none
@@ -43,8 +43,8 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport);
 /// which ends the run.
 void follow(Transport& transport);
 
-/// Calls `set_up` on process 0, whose warnings go to stderr. If it throws, the others are shut down
-/// first.
+/// Calls `set_up` on process 0, and prints its warnings on stderr. If it throws, the other
+/// processes are shut down first.
 void set_up_producer(Transport& transport,
                      const std::function<void(std::vector<std::string>& warnings)>& set_up);
 

@@ -169,7 +169,7 @@ std::optional<BeamTask::Kind> end_of(const accel::beam::BeamStep& step,
 void require_tasks(const accel::beam::BeamTracer& tracer) {
   if (tracer.options().continue_with_rays) return;
   throw InputError(
-      "continue=beams cannot be distributed: what passes a leaf would have to be sent back as a "
+      "continue=beams cannot be distributed: beams behind a leaf would have to be sent back as a "
       "beam; use continue=rays");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The tasks of consumers, beams or blocks of the image: their sources and their encoding.
+// The tasks of consumers (beams, blocks or tiles of the image): their sources and their encoding.
 
 #include <cstdint>
 #include <optional>
@@ -29,10 +29,10 @@ void write_crossing(const accel::beam::Crossing& crossing, ByteWriter& writer);
 /// Reads a plane of the cells. Throws ProtocolError if the grid does not have that plane.
 accel::beam::Crossing read_crossing(const accel::CellGrid& grid, ByteReader& reader);
 
-/// Writes outline and cuts. Of the cuts only the planes are written, because their lines follow
-/// from these.
+/// Writes the outline and the cuts of a beam. Only the planes of the cuts are written, because the
+/// lines follow from the planes.
 void write_shape(const accel::beam::Beam& beam, ByteWriter& writer);
-/// Reads them, bit for bit. Throws ProtocolError for other bytes.
+/// Reads outline and cuts, bit for bit. Throws ProtocolError for other bytes.
 void read_shape(ByteReader& reader, const accel::beam::EyeView& view, accel::beam::Beam& beam);
 
 /// A beam whose samples become rays.

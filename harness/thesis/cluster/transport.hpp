@@ -1,5 +1,5 @@
 #pragma once
-// Messages between processes, and the roles in a run: sources of tasks, workers, sinks of results.
+// Messages between processes, and the roles in a run: task sources, workers, result sinks.
 
 #include <cstddef>
 #include <functional>
@@ -13,17 +13,17 @@ namespace beambench::cluster {
 
 /// The kind of a message.
 enum class Tag {
-  kReady,        ///< consumer: its octree is built; has its identity
+  kReady,        ///< consumer: its octree is built; contains its identity
   kTasks,        ///< producer: a parcel of work
   kResults,      ///< consumer: results of a parcel
   kHeartbeat,    ///< consumer: it is still working on a long task
-  kEnd,          ///< producer: there is no more work
+  kEnd,          ///< producer: no more work
   kFinalReport,  ///< consumer: its report and, for a divided scene, its hits
   // For a divided scene (split/):
-  kGo,      ///< process 0: all have the same scene; begin
+  kGo,      ///< process 0: all processes have the same scene; begin
   kCross,   ///< to any process: beams and rays that enter its part
   kAsk,     ///< process 0: request for a kCount when idle
-  kCount,   ///< the numbers of kCross messages sent and received
+  kCount,   ///< to process 0: the numbers of kCross messages sent and received
   kLight,   ///< to any process: rays of light that enter its part
   kAnswers  ///< to process 0: the results of rays of light
 };
@@ -64,7 +64,7 @@ class Transport : public Role {
   virtual std::optional<Message> poll() = 0;
   /// Returns the next message; nothing if none arrives within `seconds`.
   virtual std::optional<Message> wait(double seconds) = 0;
-  /// Sends the producer's bytes to all; every process calls it.
+  /// Sends the producer's bytes to all processes; every process must call it.
   virtual void broadcast(Bytes& bytes) = 0;
 };
 

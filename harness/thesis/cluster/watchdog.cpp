@@ -13,7 +13,8 @@
 namespace beambench::cluster {
 namespace {
 
-constexpr int kGrace = 1000;  // milliseconds, for a group that is stopped and continued as a whole
+// Milliseconds to wait once more: both processes may have been stopped and then continued.
+constexpr int kGrace = 1000;
 
 /// Returns whether the other side is still open; it is closed when its process ends.
 bool is_open_after(int socket, int milliseconds) {
@@ -25,7 +26,8 @@ bool is_open_after(int socket, int milliseconds) {
   return ready == 0;
 }
 
-/// Must not take a lock, because other libraries may have started threads before the fork.
+/// Watches the parent from the child. Must not take a lock, because other libraries may have
+/// started threads before the fork.
 [[noreturn]] void watch(int socket, pid_t parent, int milliseconds, const std::string& message) {
   ::close(STDIN_FILENO);
   ::close(STDOUT_FILENO);

@@ -1,5 +1,5 @@
 #pragma once
-// Ends a stopped process when there is no other process left to notice it.
+// Ends a stopped process when no other process is left to notice it.
 
 namespace beambench::cluster {
 
@@ -7,8 +7,8 @@ namespace beambench::cluster {
 /// for each other only at first; if a process is stopped later, only mpirun waits for it, forever.
 class Watchdog {
  public:
-  /// Forks, so construct it before MPI. The child ends with this process, however that ends. If a
-  /// child cannot be created, this process is not watched.
+  /// Forks, so construct it before MPI. The child ends with this process, however this process
+  /// ends. If a child cannot be created, this process is not watched.
   explicit Watchdog(double seconds);
   ~Watchdog() = default;  ///< keeps watching: static objects are still to be destroyed
   Watchdog(const Watchdog&) = delete;

@@ -1,5 +1,5 @@
 #pragma once
-// The state of the consumers: waiting, working or silent.
+// The states of the consumers: waiting, working or silent.
 
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,8 @@
 namespace beambench::cluster {
 
 /// Selects the consumer for the next parcel: among those with the fewest parcels, the one that has
-/// waited longest (the thesis's round robin, section 6.2.3, where each has at most one).
+/// waited longest (the thesis's round robin, section 6.2.3, in which each consumer holds at most
+/// one parcel).
 class WorkerPool {
  public:
   /// Consumers are 1 ... `processes` - 1. Each may hold up to `in_flight` parcels, and is declared
@@ -51,7 +52,7 @@ class WorkerPool {
     std::uint64_t since = 0;  ///< the turn at which it began to wait
     double last_heard = 0.0;
   };
-  /// Ordered by the sequence in which work is assigned.
+  /// The key of a consumer, ordered by the sequence in which work is assigned.
   struct Place {
     int load;
     std::uint64_t since;

@@ -1,6 +1,6 @@
 """Verifies the hits of several programs over several scenes, and writes a table.
 
-Every program traces the same rays over the same triangles and writes a file of hits, which
+Every program traces the same rays over the same triangles and writes a hit file, which
 `beambench verify --hits` verifies. programs.json, in this folder, lists the programs with their
 commands. A program that does not run is left out, and the manifest states why. Measured cells stay
 in the folder --work, so an interrupted run continues where it stopped.
@@ -69,7 +69,7 @@ class FailedError(Exception):
 
 
 def slug(text: str) -> str:
-    """Returns a name for a file."""
+    """Returns the text in a form for file names."""
     return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
 
 
@@ -83,7 +83,7 @@ def call(command: list[str], expected: tuple[int, ...] = (0,)) -> str:
 
 
 def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Returns vertices as float32, and the three vertices of each triangle."""
+    """Returns vertices as float32, and the indices of each triangle's three vertices."""
     lines = path.read_text("utf-8").splitlines()
     vertices = [line.split()[1:4] for line in lines if line.startswith("v ")]
     faces = [line.split()[1:4] for line in lines if line.startswith("f ")]
@@ -101,7 +101,7 @@ def write_rays(path: Path, rays: np.ndarray, note: str) -> None:
 
 
 def aimed_rays(obj: Path, kind: str, count: int) -> np.ndarray:
-    """Returns rays at vertices and at the midpoints of edges, where wrong hits are most likely.
+    """Returns rays aimed at vertices and midpoints of edges, where wrong hits are most likely.
 
     `edges`: from a sphere around the scene; direction and target are rounded to float32, so a ray
     passes its target within rounding. `inside`: likewise, but from around the center of a closed
@@ -145,7 +145,7 @@ def read_rays(path: Path) -> np.ndarray:
 
 
 def read_hits(path: Path) -> np.ndarray:
-    """Returns the closest hits of a .hits file, by the names of its columns."""
+    """Returns the closest hits of a .hits file as an array with its column names."""
     with path.open("rb") as file:
         file.readline()
         columns = json.loads(file.readline())["columns"]
@@ -229,7 +229,7 @@ class Measurement:
         return self.work / "cells" / f"{slug(program['name'])}-{slug(scene)}-{kind}.json"
 
     def cell(self, program: dict[str, Any], scene: str, kind: str) -> dict[str, Any]:
-        """Returns a row of the table, with the disputed rays in `examples`."""
+        """Returns a row, measured if necessary, with the disputed rays in `examples`."""
         kept = self.cell_file(program, scene, kind)
         if kept.exists():
             return json.loads(kept.read_text("utf-8"))
@@ -297,12 +297,16 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     add_common_options(parser)
-    parser.add_argument("-o", dest="out", type=Path, help="folder for hits.csv, manifest.json")
-    parser.add_argument("--only", default="", help="programs, by names separated by commas")
+    parser.add_argument(
+        "-o", dest="out", type=Path, help="folder for hits.csv, summary.csv and manifest.json"
+    )
+    parser.add_argument(
+        "--only", default="", help="names of the programs to run, separated by commas"
+    )
     parser.add_argument("--scenes", nargs="+", default=SCENES, help="default: the published ones")
     parser.add_argument("--rays", nargs="+", default=list(RAYS), choices=list(RAYS))
     parser.add_argument(
-        "--measured", action="store_true", help="write the table of the existing cells only"
+        "--measured", action="store_true", help="write the table only, from the existing cells"
     )
     arguments = parser.parse_args()
     programs = json.loads(arguments.programs.read_text("utf-8"))["programs"]

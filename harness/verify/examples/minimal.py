@@ -44,7 +44,7 @@ def write_obj(path: Path, corners: np.ndarray) -> None:
 
 
 def around(ray: np.ndarray) -> np.ndarray:
-    """Returns rays with the origin of this one, in a cone around it."""
+    """Returns rays with the origin of this ray, in a cone around it."""
     direction = ray[4:7].astype(np.float64)
     side = np.cross(direction, np.eye(3)[np.abs(direction).argmin()])
     side /= np.linalg.norm(side)
@@ -61,7 +61,7 @@ class Case:
     """A program, one ray, and the properties to be preserved."""
 
     def __init__(self, measurement: Measurement, program: dict[str, Any], ray: np.ndarray) -> None:
-        """Initializes the case; its folder is emptied when done."""
+        """Initializes the case in a temporary folder, which is deleted with the object."""
         self.measurement, self.program = measurement, program
         self.kept = tempfile.TemporaryDirectory()
         folder = Path(self.kept.name)
@@ -81,7 +81,7 @@ class Case:
         return {"version": version, "lost": lost, **example}
 
     def is_surrounded(self) -> bool:
-        """Returns whether all rays around it hit the triangles examined last."""
+        """Returns whether all rays around the ray hit the triangles examined last."""
         out = self.hits.with_name("around.hits")
         command = ["hits", str(self.obj), "--rays", str(self.neighbors), "-o", str(out)]
         call([self.measurement.beambench, *command])
@@ -89,7 +89,7 @@ class Case:
 
 
 def fewest(count: int, holds: Callable[[np.ndarray], bool]) -> np.ndarray:
-    """Returns indices of which none can be left out."""
+    """Returns indices for which `holds` is true, none of which can be left out."""
     left, size = np.arange(count), count // 2
     while size >= 1:
         at, shrunk = 0, False
@@ -109,17 +109,19 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     add_common_options(parser)
-    parser.add_argument("--program", required=True, help="its name")
+    parser.add_argument("--program", required=True, help="name of the program")
     parser.add_argument("--scene", required=True)
     parser.add_argument("--rays", required=True, help="kind of rays, as measure.py names them")
-    parser.add_argument("--index", type=int, help="of the ray (default: the first disputed one)")
+    parser.add_argument(
+        "--index", type=int, help="index of the ray (default: the first disputed ray)"
+    )
     parser.add_argument(
         "--lost", action="store_true", help="look for a hit that the program does not find"
     )
     parser.add_argument(
         "--surrounded",
         action="store_true",
-        help="keep the triangles around it: rays next to it must hit, so a miss is a gap",
+        help="keep the triangles around the ray: rays next to it must hit, so a miss is a gap",
     )
     parser.add_argument("-o", dest="out", type=Path, required=True, help="folder to write")
     arguments = parser.parse_args()

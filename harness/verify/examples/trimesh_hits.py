@@ -33,11 +33,11 @@ Hits = tuple[np.ndarray, np.ndarray, np.ndarray]  # the triangle, the ray and th
 
 
 class ProblemError(Exception):
-    """The problem with the files, as a sentence."""
+    """Raised for a problem with the files, which the message states in a sentence."""
 
 
 def open_rays(path: Path) -> tuple[BinaryIO, dict[str, Any]]:
-    """Opens the file at its first ray, and returns it with the JSON before it."""
+    """Returns the file, opened at its first ray, and the JSON before the rays."""
     file = path.open("rb")
     if file.readline(64) != RAYS_LINE:
         raise ProblemError(f"{path} is not a .rays file of beambench")
@@ -82,7 +82,7 @@ class Tracer:
         # first hit is requested.
         self.all_hits = engine == "rtree"
         self.intersector = RayMeshIntersector(mesh)
-        self.intersections(np.zeros((1, 3)), np.ones((1, 3)))  # builds what it keeps
+        self.intersections(np.zeros((1, 3)), np.ones((1, 3)))  # builds the engine's tree
 
     def intersections(self, origins: np.ndarray, directions: np.ndarray) -> Hits:
         """Returns the hits of rays without ends, in arbitrary order."""
@@ -111,7 +111,7 @@ class Tracer:
 
 
 def trace(mesh_path: Path, rays_path: Path, hits_path: Path, engine: str) -> dict[str, Any]:
-    """Writes the file of hits, complete or not at all, and returns the text to print."""
+    """Writes the hit file, completely or not at all, and returns the values to print."""
     file, header = open_rays(rays_path)
     mesh = load_triangles(mesh_path)
     begin = time.perf_counter()

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint64_t kMaxPrimitives = 60;
 
-/// Returns null if the structure refuses the scene, which it may do for unsupported features.
+/// Builds the structure; returns null if it refuses the scene, as it may for unsupported features.
 std::unique_ptr<accel::Accelerator> build(const accel::StructureChoice& choice,
                                           const scenes::Scene& scene) {
   try {
@@ -61,7 +61,7 @@ void leave_out_edge_on(const Subject& subject, const scenes::Scene& scene,
   std::erase_if(rays, [&](const accel::Ray& ray) { return is_edge_on(scene, ray); });
 }
 
-/// Returns a scene for a camera anywhere: of any primitives, or of the families.
+/// Returns a scene to be seen by a camera anywhere: random primitives, or a scene of the families.
 scenes::Scene scene_to_view(PrimitiveKinds kinds, Random& random) {
   const std::uint64_t seed = random.bits();
   scenes::Scene scene =
@@ -194,7 +194,7 @@ CheckOutcome check_views(const Subject& subject, const SelftestEffort& effort) {
             fmt::format("{} rays over {} (view of seed {}), {}", kind, scene.name, seed,
                         choice.short_label()),
             comparison.whole(*structure, input, /*may_graze=*/true));
-      } catch (const rays::NoRaysError&) {  // it sees nothing, or no mirror
+      } catch (const rays::NoRaysError&) {  // the camera sees nothing, or no mirror
       }
       if (outcome.passed()) continue;
       if (outcome.failed) outcome.failed->scene.cameras = {image.camera};

@@ -22,8 +22,8 @@ constexpr int kPrimitives = 40;
 
 using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 
-/// A scene, the structure over it, and rays whose number is not a multiple of a packet's size, some
-/// of them short.
+/// A scene, the structure over it, and rays, some of them short. Their number is not a multiple of
+/// a packet's size.
 struct Trial {
   Trial(const Subject& subject, std::uint64_t seed)
       : scene(random_scene(seed, kPrimitives, subject.kinds())),
@@ -45,7 +45,8 @@ struct Trial {
     std::erase_if(all, [this](const auto& input) { return !rays::is_supported(choice, input); });
     return all;
   }
-  /// Returns the rays for queries of single rays: none if the structure does not support these.
+  /// Returns the rays for queries of single rays: none if the structure does not support such
+  /// queries.
   std::span<const accel::Ray> single_rays() const {
     if (!choice.info().support.single_rays) return {};
     return rays;
@@ -74,7 +75,7 @@ std::string first_difference(const Counts& a, const Counts& b) {
                          other == b.end() ? 0 : other->second);
     }
   }
-  return a.size() == b.size() ? "" : "two builds count other things";
+  return a.size() == b.size() ? "" : "two builds have different counters";
 }
 
 /// Returns an inconsistency in the counters of one ray; empty if there is none.
@@ -150,7 +151,7 @@ CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort
     if (trial.structure->closest_hit(ray, nullptr) !=
             trial.structure->closest_hit(ray, &counters) ||
         trial.structure->any_hit(ray, nullptr) != trial.structure->any_hit(ray, &counters)) {
-      outcome.failure = show(ray) + " gets another answer when work is counted";
+      outcome.failure = show(ray) + " gets a different result when work is counted";
       return outcome;
     }
   }
@@ -177,7 +178,7 @@ CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effo
   const accel::Statistics b = second->statistics();
   if (a.nodes != b.nodes || a.leaves != b.leaves || a.references != b.references ||
       a.depth != b.depth) {
-    outcome.failure = "two builds over one scene have other nodes, leaves, references or depth";
+    outcome.failure = "two builds over one scene differ in nodes, leaves, references or depth";
   }
   return outcome;
 }
@@ -201,7 +202,7 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
           for (std::size_t i = 0; i < 3 * inputs.size(); ++i) {
             const std::size_t which = i % inputs.size();
             if (traced(*trial.structure, inputs[which]) != alone[which]) {
-              mine = "four threads at once get other results than one alone";
+              mine = "four threads at once get different results than one alone";
             }
           }
         } catch (const std::exception& error) {
@@ -241,7 +242,7 @@ CheckOutcome check_statistics(const Subject& subject, const SelftestEffort& effo
   if (sizes.leaves > sizes.nodes)
     return wrong("there are more leaves than nodes, which include them");
   if (sizes.empty_leaves > sizes.leaves) return wrong("there are more empty leaves than leaves");
-  if (sizes.depth > sizes.nodes) return wrong("it is deeper than it has nodes");
+  if (sizes.depth > sizes.nodes) return wrong("its depth is larger than its number of nodes");
   if (sizes.nodes > 0 && sizes.bytes == 0) return wrong("there are nodes, but they take no memory");
   for (const auto& [name, value] : sizes.more) {
     if (!std::isfinite(value)) return wrong(fmt::format("'{}' is not a number", name));

@@ -1,5 +1,5 @@
 #pragma once
-// A closed mesh of triangles, and rays that are hard to trace over it.
+// A closed mesh of triangles, and rays over it that are hard to trace.
 
 #include <array>
 #include <vector>
@@ -23,7 +23,7 @@ ClosedMesh closed_mesh(const glm::dvec3& center, double radius);
 
 /// A place and a size of the mesh.
 struct MeshPlace {
-  const char* family;  ///< of the kit
+  const char* family;  ///< the family in the kit
   glm::dvec3 center;
   double radius;
 };

@@ -16,7 +16,7 @@ namespace beambench::verify {
 namespace {
 
 /// The part of the rays at edges of a closed mesh that may leak: Embree's robust mode leaks up to
-/// 0.1% of them, float arithmetic that is not careful at edges 2% and more.
+/// 0.1% of them, float arithmetic that is not careful at edges leaks 2% or more.
 constexpr double kMaxLeaks = 0.01;
 
 rays::TraceInput list_of(std::vector<accel::Ray> rays, rays::Query query, bool must_hit = false) {

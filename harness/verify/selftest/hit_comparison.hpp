@@ -23,22 +23,23 @@ struct WrongHits {
   Mismatch first;          ///< of a ray of `input`
 };
 
-/// Compares hits with the correct ones. Each method returns the fault, or nothing if all are
-/// correct. The scene must outlive this object.
+/// Compares a structure's hits with the correct hits. Each method returns the fault, or nothing if
+/// all are correct. The scene must outlive this object.
 class HitComparison {
  public:
   HitComparison(const scenes::Scene& scene, accel::Conformance conformance)
       : scene_(&scene), exhaustive_(scene), conformance_(conformance) {}
 
   /// Compares closest and any hits of single rays. If every bit must be equal, each ray is also
-  /// traced with its end, and with its beginning, exactly at its hit. `must_hit`: the rays are
-  /// inside a closed surface, and at most 1% may leak; the kit allows none.
+  /// traced once so that it ends and once so that it begins exactly at its hit. `must_hit`: the
+  /// rays are inside a closed surface, and at most 1% of them may leak; the kit allows no leaks.
   std::optional<WrongHits> single_rays(const accel::Accelerator& structure,
                                        std::span<const accel::Ray> rays,
                                        bool must_hit = false) const;
 
   /// Compares the hits of an image or of a list with its pencils, traced as a whole. `may_graze`:
-  /// more grazes than the differ's budget are allowed, as if the camera lies on a surface.
+  /// more grazes than the differ's budget are allowed, for example because the camera may lie on a
+  /// surface.
   std::optional<WrongHits> whole(const accel::Accelerator& structure, const rays::TraceInput& input,
                                  bool may_graze) const;
 
@@ -57,7 +58,8 @@ class HitComparison {
   accel::Conformance conformance_;
 };
 
-/// Runs a structure again over parts of a scene, and compares its hits likewise: for `minimize`.
+/// Returns a function for `minimize`, which runs a structure again over parts of a scene and
+/// compares its hits in the same way.
 FindWrong wrong_by_comparison(const accel::StructureChoice& structure);
 
 }  // namespace beambench::verify

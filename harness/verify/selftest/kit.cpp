@@ -24,22 +24,24 @@ namespace fs = std::filesystem;
 constexpr const char* kIndex = "kit.json";
 constexpr std::string_view kReadme =
     R"(# A kit of awkward scenes
-Each folder has a scene and rays that are hard to trace correctly. `scene.nff` has all primitives,
-`scene.obj`, where there is one, the same surfaces as triangles: the face on the n-th line that begins
-with f, counted from 0, is triangle n. For the rays of `closest.rays` find the closest hit in the closed
-interval from t_min to t_max, for those of `any.rays` whether there is one; `rays.csv` has the same rays.
+Each folder has a scene and rays that are hard to trace correctly. `scene.nff` has all primitives.
+`scene.obj`, if it exists, has the same surfaces as triangles: the face on the n-th line that begins
+with f, counted from 0, is triangle n. For each ray of `closest.rays`, find the
+closest hit in the closed interval from t_min to t_max; for each ray of `any.rays`, find whether there
+is a hit. `rays.csv` has the same rays.
 
 Write `closest.hits` or `closest-hits.csv`, and `any.hits` or `any-hits.csv`, beside the rays, then run
 
     beambench verify --kit FOLDER
 
-or leave the loop to it:
+or let beambench run your tracer on each case:
 
     beambench verify --kit FOLDER --command 'my-tracer {obj} {rays} {hits}'
 
-A tracer that ends with exit code 77 declines the query, or rays with an interval: the table says `unsupported`. `kit.json`
-names the family of each case and the tolerance that a library with float arithmetic can be expected to keep: K u is 16
-units in the last place of a float as large as the coordinates. The formats are described in harness/verify/README.md of beambench.
+A tracer that does not support a query, or rays with an interval, should end with exit code 77; the
+table then has `unsupported`. `kit.json` names the family of each case and the tolerance that a library
+with float arithmetic can be expected to keep: K u is 16 units in the last place of a float as large as
+the coordinates. The formats are described in harness/verify/README.md of beambench.
 )";
 
 std::string folder_name(std::size_t number, std::string name) {
@@ -72,8 +74,8 @@ void write_scene(const fs::path& folder, SceneWithRays made, const KitScene& of)
 void make_empty_folder(const fs::path& folder) {
   make_folder(folder);
   if (!fs::is_empty(folder)) {
-    throw InputError(fmt::format("the folder '{}' is not empty; choose one that is, or a new one",
-                                 folder.string()));
+    throw InputError(fmt::format(
+        "the folder '{}' is not empty; choose an empty folder or a new one", folder.string()));
   }
 }
 
@@ -119,7 +121,7 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
     throw InputError(fmt::format("{}: {}; 'beambench selftest --export DIR' writes a kit",
                                  file.string(), problem));
   };
-  if (!fs::exists(file)) fail("there is no such file, so the folder holds no kit");
+  if (!fs::exists(file)) fail("there is no such file, so the folder does not contain a kit");
   const auto json = read_json_file<nlohmann::ordered_json>(file);
   if (!json.is_object() || !json.contains("cases") || !json["cases"].is_array()) {
     fail("it is not a list of cases");

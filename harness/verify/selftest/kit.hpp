@@ -23,11 +23,11 @@ struct KitCase {
   bool closed = false;  ///< each ray must hit (`RaySet::must_hit`), whatever its file states
 };
 
-/// Writes a kit into a folder, which is created and must be empty: for each scene a folder with
-/// scene.nff, scene.obj if it has only triangles, closest.rays, any.rays and rays.csv (the rays of
-/// both); kit.json names them, with family and tolerance, README.md explains them. The scenes are
-/// those of `for_each_kit_scene`. `progress` gets a cell for each scene. Throws InputError. Returns
-/// the number of scenes.
+/// Writes a kit into a folder, which is created if missing and must be empty. Each scene has a
+/// folder with scene.nff, scene.obj if the scene has only triangles, closest.rays, any.rays and
+/// rays.csv (the same rays as in both). kit.json lists these folders with family and tolerance;
+/// README.md explains their files. The scenes are those of `for_each_kit_scene`. `progress` gets a
+/// cell for each scene. Throws InputError. Returns the number of scenes.
 std::size_t write_kit(const std::filesystem::path& folder, const SelftestEffort& effort,
                       PrimitiveKinds kinds, base::Progress& progress);
 /// Returns the number of scenes of a kit.

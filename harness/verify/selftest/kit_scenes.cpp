@@ -21,7 +21,7 @@ namespace {
 using accel::Ray;
 
 constexpr const char* kUsual =
-    "t within K u of the exact one; where a ray passes an edge within K u, either result";
+    "t within K u of the exact one; if a ray passes an edge within K u, hit or miss";
 constexpr const char* kTies =
     "t within K u of the exact one, and any of the primitives that lie there";
 
@@ -76,8 +76,8 @@ SceneWithRays duplicates() {
   return made;
 }
 
-/// Returns a square at t = 5 exactly, or at a t that is not a short number, and rays that end or
-/// begin there, at the next floats, or far from it.
+/// Returns a square, hit at exactly t = 5 or at a t with many digits, and rays that end or begin at
+/// the hit, at the next floats, or far from it.
 SceneWithRays limits_at_the_hit() {
   scenes::SceneBuilder builder("limits at the hit");
   builder.add_polygon(std::array<glm::dvec3, 4>{
@@ -102,14 +102,14 @@ SceneWithRays limits_at_the_hit() {
   return made;
 }
 
-/// Passes scenes on, and gathers the rays that have an interval into scenes of their own.
+/// Passes scenes on, and collects the rays that have an interval in separate scenes.
 class Kit {
  public:
   Kit(const SelftestEffort& effort, PrimitiveKinds kinds,
       const std::function<void(KitScene)>& visit)
       : effort_(effort), kinds_(kinds), visit_(visit) {}
 
-  /// Adds rays that no polygon has in its plane: there, rounding alone decides.
+  /// Adds rays, except those in the plane of a polygon, for which rounding alone decides.
   void add(const std::string& family, SceneWithRays made, const char* tolerance = kUsual) {
     std::erase_if(made.rays, [&](const Ray& ray) { return is_edge_on(made.scene, ray); });
     add_all(family, std::move(made), tolerance);
@@ -120,15 +120,16 @@ class Kit {
     made.rays.erase(ends.begin(), ends.end());
     pass(family, std::move(made), tolerance, false);
     pass(kIntervalFamily, std::move(parts),
-         "a hit within K u of an end of the interval, either result; otherwise as without one",
+         "within K u of an end of the interval, hit or miss; otherwise as without an interval",
          false);
   }
   void add_closed(const std::string& family, ClosedMesh mesh, std::vector<Ray> rays) {
     pass(family, {std::move(mesh.scene), std::move(rays)},
-         "any of the triangles that meet at an edge; but a hit, because the surface is closed",
+         "any of the triangles that meet at an edge, but never a miss, because the surface is "
+         "closed",
          true);
   }
-  /// Adds the rays of an image and random ones.
+  /// Adds the rays of an image and random rays.
   void add_seen(const std::string& family, scenes::Scene scene, std::uint64_t seed) {
     if (scene.primitives.empty() || !kinds_.include(scene)) return;
     Random random(seed);
@@ -162,7 +163,7 @@ void add_meshes(Kit& kit, std::uint64_t count) {
   }
   kit.add_all("edges and vertices", {mesh.scene, rays_at_edges(mesh, count, random)}, kUsual);
   kit.add_all("origins on surfaces", {mesh.scene, rays_from_surface(mesh, count, random)},
-              "a hit within K u of the origin, either result; otherwise t within K u");
+              "within K u of the origin, hit or miss; otherwise t within K u");
   kit.add_all("odd directions", {mesh.scene, rays_of_odd_directions(mesh, count, random)}, kUsual);
 }
 
@@ -190,8 +191,8 @@ void for_each_kit_scene(const SelftestEffort& effort, PrimitiveKinds kinds,
   kit.add("thousands in a plane", coplanar_squares());
   kit.add_all(kIntervalFamily, limits_at_the_hit(), kUsual);
   kit.add_all("rays in planes", block_of_squares(),
-              "either result for a polygon in whose plane the ray lies; what lies in front of it "
-              "or behind it as usual");
+              "hit or miss for a polygon in whose plane the ray lies; surfaces in front of it "
+              "and behind it as usual");
   add_meshes(kit, 2 * effort.rays);
 }
 

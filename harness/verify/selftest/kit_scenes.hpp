@@ -13,15 +13,15 @@ namespace beambench::verify {
 /// One scene of the kit.
 struct KitScene {
   std::string family;
-  /// What a library that computes in float can be expected to keep, in a sentence.
+  /// The tolerance that a library computing in float can be expected to keep, in words.
   std::string tolerance;
   SceneWithRays made;
-  /// The rays begin inside a closed surface: each must hit, whatever the tolerance.
+  /// Whether the rays begin inside a closed surface, so that each must hit, whatever the tolerance.
   bool closed = false;
 };
 
-/// The family of rays whose interval is not [0, infinity], which many libraries do not have. They
-/// come from the scenes of the other families.
+/// The family of rays whose interval is not [0, infinity], which many libraries do not support.
+/// They come from the scenes of the other families.
 inline constexpr const char* kIntervalFamily = "t interval";
 
 /// Calls `visit` for each scene, which has at least one ray; the same effort makes the same scenes

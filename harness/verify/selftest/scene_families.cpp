@@ -229,7 +229,7 @@ class FamilyMaker {
     builder_.set_surface(surfaces[random_.below(surfaces.size())]);
     try {
       add();
-    } catch (const InputError&) {  // rounding to float has left nothing of it
+    } catch (const InputError&) {  // degenerate after rounding to float
     }
   }
 

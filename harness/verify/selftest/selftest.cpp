@@ -25,7 +25,7 @@ bool supports(const accel::Support& support, NeededRays rays) {
 
 std::span<const Check> selftest_checks() {
   static constexpr std::array<Check, 16> kChecks{{
-      {"random scenes", "spheres, cones and polygons anywhere, at any of its parameters", false,
+      {"random scenes", "spheres, cones and polygons anywhere, with varied parameters", false,
        false, NeededRays::kSingle, check_random_scenes},
       {"scene families",
        "flat cones, eyes on surfaces, touching spheres, tiny scale, coplanar polygons, needles, "
@@ -47,15 +47,14 @@ std::span<const Check> selftest_checks() {
        NeededRays::kSingle, check_degenerate_rays},
       {"heap", "ten thousand equal primitives in one place: the lowest id is hit", false, false,
        NeededRays::kSingle, check_heap},
-      {"lists",
-       "a list of rays gets what each ray gets alone; with arithmetic of its own, correct hits",
+      {"lists", "rays get the same hits in a list as alone; with its own arithmetic, correct hits",
        false, false, NeededRays::kSingleAndLists, check_lists},
-      {"counting", "counting work changes no answer", false, false, NeededRays::kAny,
+      {"counting", "counting work does not change results", false, false, NeededRays::kAny,
        check_counting},
-      {"two builds", "the same scene gives the same structure, work and answers", false, false,
+      {"two builds", "the same scene gives the same structure, work and results", false, false,
        NeededRays::kAny, check_two_builds},
-      {"threads", "four threads at once get what one gets", false, false, NeededRays::kAny,
-       check_threads},
+      {"threads", "four threads at once get the same results as one", false, false,
+       NeededRays::kAny, check_threads},
       {"counters", "the counters of each ray are consistent", false, false, NeededRays::kSingle,
        check_counters},
       {"statistics", "the sizes that it reports are consistent", false, false, NeededRays::kAny,

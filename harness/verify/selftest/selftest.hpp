@@ -1,5 +1,5 @@
 #pragma once
-// Properties of every structure, checked for one.
+// Checks whether a structure has the properties that every structure must have.
 
 #include <cstdint>
 #include <optional>
@@ -34,14 +34,15 @@ struct FailedInput {
 struct CheckOutcome {
   std::uint64_t rays = 0;               ///< traced
   std::string failure;                  ///< the first fault, in a sentence; empty if there is none
-  std::optional<FailedInput> failed{};  ///< for wrong hits
+  std::optional<FailedInput> failed{};  ///< set for wrong hits
 
   bool passed() const { return failure.empty(); }
 };
 
 using RunCheck = CheckOutcome(const Subject& subject, const SelftestEffort& effort);
 
-/// The sources of rays that a check needs. It uses others where the structure supports them.
+/// The sources of rays that a check needs. It also uses other sources if the structure supports
+/// them.
 enum class NeededRays : std::uint8_t { kAny, kImages, kSingle, kSingleAndLists };
 
 /// One property of structures.
@@ -49,7 +50,7 @@ struct Check {
   std::string_view name;
   std::string_view claim;  ///< the claim to be checked
   bool bit_exact_only;     ///< not for structures with their own arithmetic
-  bool of_polygons;        ///< not for structures that refuse polygons
+  bool of_polygons;        ///< not for structures that do not support polygons
   NeededRays rays;         ///< not for structures that do not support these
   RunCheck* run;
 };
@@ -57,8 +58,8 @@ struct Check {
 /// Returns all checks, the quick and general ones first.
 std::span<const Check> selftest_checks();
 
-/// Returns whether the check applies to that structure. None applies to one that returns no hits by
-/// design.
+/// Returns whether the check applies to that structure. No check applies to a structure that
+/// returns no hits by design.
 bool applies(const Check& check, const Subject& subject);
 
 /// Runs a check. An exception of the structure is also a failure.
@@ -68,8 +69,7 @@ CheckOutcome run_check(const Check& check, const Subject& subject, const Selftes
 std::string show(const accel::Ray& ray);
 std::string show(const std::optional<accel::Hit>& hit);
 
-/// Traces an input into a buffer that was poisoned before, so that a result left unwritten is
-/// detected.
+/// Traces an input into a poisoned buffer, so that a result left unwritten is detected.
 rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input,
                           accel::WorkCounters* counters = nullptr);
 

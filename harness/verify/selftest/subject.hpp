@@ -22,25 +22,25 @@ struct PrimitiveKinds {
   bool include(scenes::PrimitiveKind kind) const;
   /// Returns whether the scene consists only of these kinds.
   bool include(const scenes::Scene& scene) const;
-  /// Returns those of `spheres`, `cones`, `polygons` that are in the set.
+  /// Returns the names of the kinds in the set: `spheres`, `cones`, `polygons`.
   std::vector<std::string_view> names() const;
   /// Returns the other kinds.
   PrimitiveKinds without() const { return {!spheres, !cones, !polygons}; }
 };
 
-/// Returns the kinds that a structure supports: those for which it does not refuse a single
-/// primitive with an InputError. All kinds if it refuses each, because then the kinds are not the
-/// reason.
+/// Returns the kinds that a structure supports: those for which building over a single primitive
+/// throws no InputError. Returns all kinds if every build throws, because then the kinds are not
+/// the reason.
 PrimitiveKinds kinds_taken(const accel::StructureChoice& choice);
 
 /// Returns values near the lower end of each parameter's range, which force structures into their
-/// special cases; defaults for reals and for large caps.
+/// special cases. Real parameters and large caps keep their defaults.
 Parameters random_parameters(const accel::StructureInfo& info, Random& random);
 
-/// A structure with the given parameters. If none are given, some scenes use random ones.
+/// A structure with the given parameters. If no parameters are given, some scenes use random ones.
 class Subject {
  public:
-  /// Builds it over three tiny scenes, to determine which primitives it supports.
+  /// Builds the structure over three tiny scenes, to determine which primitives it supports.
   explicit Subject(accel::StructureChoice choice)
       : choice_(std::move(choice)), kinds_(kinds_taken(choice_)) {}
   Subject(accel::StructureChoice choice, PrimitiveKinds kinds)

@@ -199,7 +199,7 @@ glm::dvec3 random_direction(const scenes::Scene& scene, const glm::dvec3& origin
   }
 }
 
-/// Returns the square with its lower corner there, in the plane across an axis.
+/// Returns the unit square whose lower corner is `lower`, perpendicular to an axis.
 std::array<glm::dvec3, 4> square(const glm::dvec3& lower, int axis) {
   std::array<glm::dvec3, 4> corners;
   corners.fill(lower);

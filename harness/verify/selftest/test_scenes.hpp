@@ -16,17 +16,17 @@ namespace beambench::verify {
 /// Returns a point uniform in [-1, 1]^3.
 glm::dvec3 point_in_cube(Random& random);
 
-/// A scene of one or more spheres, triangles, concave polygons and cones in and around the cube
-/// [-1, 1]^3, fewer than `primitives` if some would be degenerate. One in four seeds gives
-/// coordinates that are multiples of 1/8 (coplanar polygons, shared edges and exact ties), one
-/// repeats primitives, and one gives a scene far from the coordinate origin. `kinds` leaves some
-/// kinds of primitives out.
+/// Returns a scene of one or more spheres, triangles, concave polygons and cones in and around the
+/// cube [-1, 1]^3, fewer than `primitives` if some would be degenerate. Of every four seeds, one
+/// gives coordinates that are multiples of 1/8 (coplanar polygons, shared edges and exact ties),
+/// one repeats primitives, and one gives a scene far from the coordinate origin. `kinds` leaves
+/// some kinds of primitives out.
 scenes::Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds kinds = {});
 
-/// A ray from outside, inside or a special place (the scene's center planes, axes and center, which
-/// are faces, edges and corners of octree cells; a vertex), in any direction, along an axis or a
-/// diagonal, or aimed at a vertex, an edge or a primitive's middle; sometimes with a short
-/// interval.
+/// Returns a ray from outside, inside or a special place (the scene's center planes, axes and
+/// center, which are faces, edges and corners of octree cells; a vertex), in any direction, along
+/// an axis or a diagonal, or aimed at a vertex, an edge or a primitive's middle; sometimes with a
+/// short interval.
 accel::Ray random_ray(const scenes::Scene& scene, Random& random);
 
 /// Returns `count` such rays.
@@ -48,19 +48,20 @@ struct SceneWithRays {
   std::vector<accel::Ray> rays;
 };
 
-/// Returns cubes on a lattice whose planes are those of cells: rays along axes and diagonals, from
-/// outside and inside, run in faces and through edges and vertices.
+/// Returns cubes on a lattice whose planes also bound the cells of structures. Rays along axes and
+/// diagonals, from outside and inside, run in faces and through edges and vertices.
 SceneWithRays cubes_on_a_lattice();
 
-/// Returns a block of squares: rays within the faces and along the edges of every box, with zeros
-/// of both signs in their directions.
+/// Returns a block of squares, and rays within the faces and along the edges of every box, with
+/// zeros of both signs in their directions.
 SceneWithRays block_of_squares();
 
 /// Returns ten thousand equal spheres in one place, or cones or triangles if only these are
 /// allowed: no split separates them, and the lowest id must be hit.
 SceneWithRays heap(PrimitiveKinds kinds);
 
-/// Returns an empty scene; then one sphere, one cone, one triangle whose bounds have no volume.
+/// Returns an empty scene, then scenes of one sphere, one cone, and one triangle whose bounds have
+/// no volume.
 std::vector<scenes::Scene> smallest_scenes();
 
 /// Returns directions of all lengths, the longest 2^60 times the shortest, and nearly along an
@@ -69,11 +70,11 @@ std::vector<accel::Ray> degenerate_rays(const scenes::Scene& scene, std::uint64_
 
 /// The families, in the order of the seeds: scene `seed` belongs to family `seed` % their number.
 inline constexpr std::array<std::string_view, 7> kSceneFamilies{
-    "flat cones",         // heights down to 1e-9 of the radii, cylinders as flat, in stacks
+    "flat cones",         // heights down to 1e-9 of the radii, equally flat cylinders, in stacks
     "eye on geometry",    // on a sphere, a cone, its rim or tip; on, at the edge or corner of
                           // polygons
-    "touching spheres",   // as large as their lattice is wide, and the camera at a contact
-    "tiny scale",         // coordinates down to 1e-7: scenes not much smaller are refused
+    "touching spheres",   // as wide as the cells of their lattice; the camera may be at a contact
+    "tiny scale",         // coordinates down to 1e-7: slightly smaller scenes are refused
     "coplanar polygons",  // overlapping in one plane, or nearly; sometimes the camera is in it
     "needles",            // triangles and cones 1e3 to 1e6 times as long as wide
     "nested",             // spheres, cylinders, boxes nested, 1e-2 to 1e-6 apart
@@ -81,7 +82,7 @@ inline constexpr std::array<std::string_view, 7> kSceneFamilies{
 
 /// Returns a scene of up to 20 primitives with one camera, two lights, and matte, mirroring and
 /// transparent surfaces. `kinds` leaves some kinds of primitives out; a family that needs one of
-/// these uses another. The same seed gives the same scene everywhere.
+/// these uses another kind. The same seed gives the same scene everywhere.
 scenes::Scene family_scene(std::uint64_t seed, PrimitiveKinds kinds = {});
 
 }  // namespace beambench::verify

@@ -128,9 +128,10 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
       ->check(CLI::Range(1, 64));
   app.add_flag("--producer-consumes", request.producer.consumes,
                "Process 0 performs tasks while no consumer waits");
-  app.add_option("--results", typed.results,
-                 "sent to process 0; stored: every process keeps its own in FILE.kept, which all "
-                 "processes must see, and process 0 reads them at the end (with -o FILE)")
+  app.add_option(
+         "--results", typed.results,
+         "sent to process 0; stored: every process keeps its results in FILE.kept, which all "
+         "processes must see, and process 0 reads them at the end (with -o FILE)")
       ->capture_default_str()
       ->check(CLI::IsMember({"sent", "stored"}));
   app.add_flag("--resume", typed.resume,

@@ -56,7 +56,8 @@ void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
                  "CPU seconds per message, of the sender and of the receiver")
       ->capture_default_str()
       ->check(kNotNegative);
-  app.add_option("--byte-seconds", model.message_cost.byte_seconds, "... and per byte")
+  app.add_option("--byte-seconds", model.message_cost.byte_seconds,
+                 "CPU seconds per byte, of the sender and of the receiver")
       ->capture_default_str()
       ->check(kNotNegative);
   app.add_option("--look-seconds", model.message_cost.look_seconds,
@@ -166,7 +167,8 @@ void add_replay_options(CLI::App& app, ReplayRequest& request) {
   app.add_option("--walk-scale", request.walk_scale,
                  "Time to trace beams on a machine of speed 1, relative to the recorded time")
       ->check(kPositive);
-  app.add_option("--work-scale", request.work_scale, "... and for all other work")
+  app.add_option("--work-scale", request.work_scale,
+                 "Time for all other work on a machine of speed 1, relative to the recorded time")
       ->check(kPositive);
   app.add_option("--build-seconds", request.replay.build_seconds,
                  "Time of every process to read the scene and build the octree")
@@ -261,8 +263,10 @@ void add_split_options(CLI::App& app, SplitRequest& request) {
          "--build-scale", request.scale.build,
          "Time on a machine of speed 1, relative to this machine, to divide the scene and to build")
       ->check(kPositive);
-  app.add_option("--walk-scale", request.scale.walk, "... to trace beams")->check(kPositive);
-  app.add_option("--work-scale", request.scale.work, "... for all other work")->check(kPositive);
+  app.add_option("--walk-scale", request.scale.walk, "The same for tracing beams")
+      ->check(kPositive);
+  app.add_option("--work-scale", request.scale.work, "The same for all other work")
+      ->check(kPositive);
   add_cluster_options(app, request.cluster);
 }
 

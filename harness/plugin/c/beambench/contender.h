@@ -32,12 +32,12 @@ extern "C" {
 /* The primitive of a ray that hits nothing; its t is infinity. */
 #define BEAMBENCH_MISS 0xFFFFFFFFu
 
-/* What `supports` consists of; cells with other primitives get the verdict "unsupported". */
+/* The flags of `supports`; cells with other primitives get the verdict "unsupported". */
 #define BEAMBENCH_TRIANGLES 1u
 #define BEAMBENCH_SPHERES 2u
 #define BEAMBENCH_CONES 4u
 
-/* What functions return. */
+/* The return values of functions. */
 #define BEAMBENCH_OK 0
 #define BEAMBENCH_UNSUPPORTED 1 /* the query or this input is declined: no time, no error */
 #define BEAMBENCH_FAILED 2      /* an error */
@@ -101,16 +101,16 @@ typedef struct beambench_batch {
   size_t size; /* sizeof(beambench_batch) in the program */
   size_t count;
   const beambench_ray* rays;
-  size_t row; /* rays in a row of the image, samples of a pixel being neighbors; 0: a list */
+  size_t row; /* rays in a row of the image; a pixel's samples are adjacent; 0: a list */
 } beambench_batch;
 
 /* One structure. All functions are called with the table's own structures only. `beambench selftest`
  * and `verify --kit` end a scene's build and queries after --timeout seconds. */
 typedef struct beambench_contender {
   size_t size;             /* sizeof(beambench_contender) in the shared object */
-  const char* name;        /* letters, digits, '-' and '_', a letter first */
+  const char* name;        /* letters, digits, '-' and '_'; begins with a letter */
   const char* description; /* one sentence; `beambench list` prints it */
-  const char* version;     /* the library and its version, "obvhs 0.4.0"; null: none */
+  const char* version;     /* the library and its version, "obvhs 0.4.0"; null: not stated */
   uint32_t supports;       /* BEAMBENCH_TRIANGLES | ... */
   /* Builds the structure on this thread, and stores it. Timed as the build. */
   int (*create)(const beambench_scene* scene, void** structure);

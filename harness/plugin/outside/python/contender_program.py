@@ -16,7 +16,7 @@ MISS = 0xFFFFFFFF
 
 
 class Unsupported(Exception):
-    """The library has no such query or rays."""
+    """Raised if the library does not support a query or its rays."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Mesh:
     triangles: NDArray[np.uint32]
     """Shape (T, 3): indices of vertices."""
     primitives: NDArray[np.uint32]
-    """Shape (T,): what to return for a hit on each triangle."""
+    """Shape (T,): the primitive to return for a hit on each triangle."""
 
 
 @dataclass(frozen=True)
@@ -40,18 +40,18 @@ class Library:
     version: str
     build: Callable[[Mesh], Any]
     closest: Callable[[Any, NDArray[np.float32]], tuple[NDArray[Any], NDArray[Any]]]
-    """Returns t, infinite for a miss, and the triangle of each ray."""
+    """Returns t (infinity for a miss) and the triangle of each ray."""
     occluded: Callable[[Any, NDArray[np.float32]], NDArray[Any]]
 
 
 def without_t_min(rays: NDArray[np.float32]) -> None:
-    """Declines rays that begin beyond their origin."""
+    """Declines rays whose t_min is not 0."""
     if (rays[:, 3] > 0).any():
         raise Unsupported("rays begin at their origin, without t_min")
 
 
 def without_interval(rays: NDArray[np.float32]) -> None:
-    """Declines rays that have an interval."""
+    """Declines rays with t_min or t_max."""
     without_t_min(rays)
     if np.isfinite(rays[:, 7]).any():
         raise Unsupported("rays are infinite, without t_max")
@@ -68,7 +68,7 @@ def read_mesh(path: str) -> Mesh:
 
 
 def answer(library: Library, state: dict[str, Any], verb: str, path: str, count: int) -> float:
-    """Carries out a request, and returns its seconds: converting rays and results is inside."""
+    """Carries out a request; returns its seconds, including the conversion of rays and results."""
     if verb == "build":
         state["mesh"] = read_mesh(path)
         begin = time.perf_counter()

@@ -27,13 +27,13 @@ def closest(built, rays):
 
 
 def occluded(built, rays):
-    return np.isfinite(closest(built, rays)[0])  # its query OCCLUDED ignores the distances
+    return np.isfinite(closest(built, rays)[0])  # the query OCCLUDED ignores distances
 
 
 program.serve(
     program.Library(
         "embreex",
-        "embreex of PyPI: Embree 4, float; any hits are closest hits",
+        "embreex of PyPI: Embree 4, float; any-hit queries by closest hits",
         f"embreex {version('embreex')}, Python {sys.version_info[0]}.{sys.version_info[1]}",
         build,
         closest,

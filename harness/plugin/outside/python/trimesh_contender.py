@@ -30,7 +30,7 @@ def closest(built, rays):
     if len(numbers):
         way = rays[numbers, 4:7].astype("f8")
         t[numbers] = np.einsum("ij,ij->i", places - origins[numbers], way)
-        t[numbers] = np.maximum(t[numbers] / np.einsum("ij,ij->i", way, way), 0)  # places are rounded
+        t[numbers] = np.maximum(t[numbers] / np.einsum("ij,ij->i", way, way), 0)  # rounded places
         found[numbers] = triangles
     return t, found
 

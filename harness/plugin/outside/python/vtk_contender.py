@@ -24,7 +24,7 @@ def build(mesh):
 
 
 def closest(built, rays):
-    """An infinite ray ends behind the box of the scene."""
+    """Traces segments; an infinite ray ends behind the box of the scene."""
     locator, low, high, _ = built
     origin, direction = rays[:, :3].astype("f8"), rays[:, 4:7].astype("f8")
     reach = np.linalg.norm(np.maximum(np.abs(origin - low), np.abs(origin - high)), axis=1)
@@ -43,7 +43,7 @@ def closest(built, rays):
 
 
 def occluded(built, rays):
-    return np.isfinite(closest(built, rays)[0])  # there is no query of its own
+    return np.isfinite(closest(built, rays)[0])  # VTK has no any-hit query
 
 
 program.serve(

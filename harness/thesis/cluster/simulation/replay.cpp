@@ -36,7 +36,7 @@ std::vector<std::string> split(std::string_view line) {
   return fields;
 }
 
-/// The columns by name, and the fields of a line.
+/// A line of the table: its fields by column name.
 class Line {
  public:
   Line(const std::filesystem::path& path, std::map<std::string, std::size_t> columns)
@@ -170,8 +170,7 @@ std::vector<Share> planned(ImageDivision division, const TaskCosts& costs, int c
   for (const TaskCost& task : costs.tasks) estimates.push_back(task.estimate_seconds);
   if (division == ImageDivision::kEqualCost &&
       std::ranges::none_of(estimates, [](double seconds) { return seconds > 0.0; })) {
-    throw InputError(
-        "these tasks have no estimates to divide them by; record them with --work pre-pass");
+    throw InputError("these tasks have no cost estimates; record them with --work pre-pass");
   }
   return divide(division, costs.tasks.size(), {consumers, 1, estimates});
 }

@@ -1,7 +1,7 @@
 #pragma once
 // The recorded costs of a picture's tasks, and their replay: a transport whose messages cost CPU
-// time, and a producer and consumers that take as much time and send as many bytes as the real
-// ones, but need neither scene nor octree.
+// time, and a producer and consumers that take as much time and send as many bytes as in the
+// recorded run, but need neither scene nor octree.
 
 #include <cstddef>
 #include <filesystem>
@@ -18,10 +18,10 @@ namespace beambench::cluster {
 /// Lets seconds of the (simulated) CPU pass.
 using Spend = std::function<void(double seconds)>;
 
-/// CPU seconds for messages, in addition to the network's time.
+/// The CPU time of messages, in addition to the network's time.
 struct MessageCost {
-  double message_seconds;  ///< for each, sent or received
-  double byte_seconds;     ///< for each byte of it
+  double message_seconds;  ///< for each message, sent or received
+  double byte_seconds;     ///< for each byte of a message
   double look_seconds;     ///< for polling without a message
 };
 
@@ -77,14 +77,14 @@ struct TaskCost {
   std::size_t task_bytes;
   std::size_t result_bytes;
   std::size_t samples;
-  double estimate_seconds = 0.0;  ///< its expected time, if recorded
+  double estimate_seconds = 0.0;  ///< the expected time of the task, if recorded
 };
 
 struct TaskCosts {
   std::vector<TaskCost> tasks;     ///< in the order of creation
   double last_walk_seconds = 0.0;  ///< of the producer, after the last task
 
-  double walk_seconds() const;    ///< of all tasks, and after them
+  double walk_seconds() const;    ///< of all tasks, including the time after the last one
   double work_seconds() const;    ///< of all tasks
   double accept_seconds() const;  ///< of all tasks
 };
@@ -92,7 +92,7 @@ struct TaskCosts {
 /// Reads a file of `beambench-cluster --tasks FILE.csv`. Throws InputError with file and line.
 TaskCosts read_task_costs(const std::filesystem::path& path);
 
-/// Scales the times of the producer's traversal, and those of all other work.
+/// Multiplies the times of the producer's traversal by `walk`, and all other times by `work`.
 TaskCosts slowed(TaskCosts costs, double walk, double work);
 
 /// Sets the size of results to this many bytes per sample, as sent by another program.
@@ -103,7 +103,7 @@ TaskCosts with_results_of(double bytes_per_sample, TaskCosts costs);
 std::vector<Share> planned(ImageDivision division, const TaskCosts& costs, int consumers);
 
 /// Merges each share into one task, like the tiles of a range. If `stored`, results stay with the
-/// consumer, and the recorded receipt of one task stands for all of them.
+/// consumer, which returns a single receipt for the whole share.
 TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool stored);
 
 /// Makes the recorded tasks, in order or as planned. A task is its number, padded to the recorded

@@ -54,14 +54,15 @@ void configure() {
   set("smpi/init:0");
 }
 
-/// Alternates between full speed and the share of it that others leave.
+/// Alternates between full speed and the share of the speed that other users leave.
 simgrid::kernel::profile::Profile* load_of(const std::string& name, const ClusterModel& cluster) {
   const std::string points =
       fmt::format("0 1\n{} {}\n", 0.5 * cluster.load_period, cluster.loaded_share);
   return simgrid::kernel::profile::ProfileBuilder::from_string(name, points, cluster.load_period);
 }
 
-/// SimGrid 4 creates the root itself, and only zones inside it accept the models set up here.
+/// SimGrid 4 creates the root zone itself, and only zones inside the root accept the models set up
+/// here.
 s4u::NetZone* make_zone() {
 #if SIMGRID_VERSION_MAJOR >= 4
   return s4u::Engine::get_instance()->get_netzone_root()->add_netzone_star("cluster");
@@ -86,7 +87,7 @@ std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
     }
     machine->seal();
     if (medium != nullptr) {
-      // The route has one link, whichever machine sends.
+      // The route has the same single link, whichever machine sends.
       zone->add_route(machine->get_netpoint(), nullptr, nullptr, nullptr,
                       {s4u::LinkInRoute(medium)}, false);
       zone->add_route(nullptr, machine->get_netpoint(), nullptr, nullptr,
@@ -120,7 +121,8 @@ void run_process_main(Stage& stage) {
   ChargedTransport transport(carrier, stage.message_cost, smpi_execute);
   stage.process(transport, smpi_execute);
   stage.seconds = std::max(stage.seconds, transport.seconds());
-  // Otherwise messages that have not arrived would be lost with their sender.
+  // Waits for all processes, because messages that have not arrived would be lost with their
+  // sender.
   MPI_Comm everybody = MPI_COMM_NULL;
   MPI_Comm_dup(MPI_COMM_WORLD, &everybody);
   MPI_Barrier(everybody);
@@ -183,7 +185,7 @@ ClusterReport replay_producer(Transport& transport, const Spend& spend, const Ta
   return Producer(transport, source, sink, own, welcome, options).run();
 }
 
-/// Does the work, spends its scaled CPU time, and sums up the time.
+/// Does the work, spends its scaled CPU time, and adds its CPU time to `sum`.
 template <class Work>
 void do_for(const Spend& spend, double scale, double& sum, Work work) {
   const base::CpuStopwatch timer;

@@ -17,7 +17,8 @@
 
 namespace beambench::cluster {
 
-/// Speeds are relative: a machine of speed 1 takes the recorded seconds.
+/// The machines and the network of a cluster. Speeds are relative: a machine of speed 1 takes the
+/// recorded seconds.
 struct ClusterModel {
   enum class Network {
     kShared,   ///< one medium for all, as in Ethernet with hubs or coaxial cable
@@ -28,9 +29,9 @@ struct ClusterModel {
   double latency_seconds = 1e-4;     ///< between any two machines
   MessageCost message_cost{1e-4, 0.0, 2e-5};
   std::vector<double> speeds;  ///< of each process's machine
-  std::size_t loaded = 0;      ///< number of machines (the last ones) that others use, too
-  double loaded_share = 0.5;   ///< share of their speed that others leave
-  double load_period = 20.0;   ///< seconds; others use the machine in the second half
+  std::size_t loaded = 0;      ///< number of machines (the last ones) with other users
+  double loaded_share = 0.5;   ///< share of their speed that other users leave
+  double load_period = 20.0;   ///< seconds; other users are active in the second half
 };
 
 /// The producer's report, and the time of the whole run.
@@ -49,23 +50,24 @@ struct Replay {
   ProducerOptions options;
 };
 
-/// Runs producer and consumers on the cluster, with the producer on the first machine. Otherwise as
-/// `run_on`; throws what `planned` throws.
+/// Runs producer and consumers on the cluster, with the producer on the first machine. `program` is
+/// the name of this program, for SimGrid's messages. Throws what a process or `planned` throws, and
+/// std::runtime_error for a deadlock. May be called only once per program.
 SimulatedRun simulate(const ClusterModel& cluster, const Replay& replay, const char* program);
 
-/// The ratios of times on a machine of speed 1 to those on this one.
+/// The ratios of times on a machine of speed 1 to times on this machine.
 struct TimeScale {
   double build = 1.0;  ///< to divide the scene and to build
   double walk = 1.0;   ///< to trace beams
   double work = 1.0;   ///< for everything else
 };
 
-/// What a process did, in CPU seconds of this machine.
+/// The work of a process, in CPU seconds of this machine.
 struct SplitProcess {
   PartReport report;
   double build_seconds = 0.0;  ///< to divide the scene and to build its part
   double walk_seconds = 0.0;
-  double test_seconds = 0.0;  ///< of samples and rays
+  double test_seconds = 0.0;  ///< to trace samples and rays
   double take_seconds = 0.0;  ///< to receive handoffs and, at the end, hits
   double ready = 0.0;         ///< simulated: time at which it was ready
   double busy = 0.0;          ///< simulated: time of traversal, tests and receiving
@@ -73,13 +75,13 @@ struct SplitProcess {
 
 struct SimulatedSplit {
   double seconds = 0.0;         ///< simulated: up to the end of the last process
-  double traced_seconds = 0.0;  ///< the part of it after the last process was ready
+  double traced_seconds = 0.0;  ///< the part of `seconds` after the last process was ready
   std::uint64_t result_hash = 0;
   std::vector<SplitProcess> processes;
 };
 
 /// Traces `job`; each process of the cluster traces its part of the scene. Reading the scene takes
-/// no simulated time. Otherwise as `run_on`.
+/// no simulated time. Other than that, like `simulate`.
 SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
                               const std::shared_ptr<const scenes::Scene>& whole,
                               const TimeScale& scale, const char* program);

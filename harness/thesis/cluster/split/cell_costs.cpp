@@ -20,7 +20,8 @@ namespace {
 using accel::octree::Octree;
 using accel::octree::OctreeNode;
 
-/// The number of sample rays along each side of a square image; other images have the same total.
+/// The number of sample rays along each side of a square image; for other images, the total number
+/// is the same.
 constexpr double kAlong = 128.0;
 
 /// Costs in nanoseconds, rounded; fitted to the CPU times of 1,170 processes (five scenes in 16, 37
@@ -75,8 +76,8 @@ class CellCosts {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// Returns the cell of each node; none for nodes above the cells and for nodes in undivided empty
-  /// cells.
+  /// Returns the cell of each node. Nodes above the cells and nodes in undivided empty cells have
+  /// no cell.
   static std::vector<std::uint32_t> cells_of_nodes(const Octree& octree,
                                                    const SceneCells& contents) {
     const LevelCells& cells = contents.cells();

@@ -24,7 +24,7 @@ std::vector<accel::Hit> DividedScene::hits_of(const accel::RaySource& rays,
                                               LightQuery query) const {
   std::vector<accel::Hit> hits(rays.size(), kNoHit);
   std::vector<LightRay> crossing;
-  std::vector<std::size_t> places;  // their places
+  std::vector<std::size_t> places;  // their indices in `rays`
   rays.for_each([&](std::size_t i, const accel::Ray& ray) {
     const std::optional<PartTracer::Place> begin = part_->beginning(ray);
     if (!begin) return;

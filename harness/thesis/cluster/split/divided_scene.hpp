@@ -7,12 +7,12 @@
 
 namespace beambench::cluster {
 
-/// The structure on process 0 that combines all processes. The querying threads trace rays as far
-/// as this part reaches, and submit those that reach the border to the exchange. So a batch is one
-/// round of many rays, and a single ray is a round, too.
+/// The structure on process 0 that combines all processes. The querying threads trace rays up to
+/// the border of this part, and submit those that reach it to the exchange. So each query is one
+/// round, whether for a batch of many rays or for a single ray.
 class DividedScene : public accel::Accelerator {
  public:
-  /// Both must outlive this object. `statistics` are those of this part.
+  /// `part` and `exchange` must outlive this object. `statistics` are those of this part.
   DividedScene(const PartTracer& part, LightExchange& exchange, accel::Statistics statistics);
 
   void closest_hits(const accel::RaySource& rays, const accel::HitSpan& hits,

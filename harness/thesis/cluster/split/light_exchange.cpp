@@ -17,7 +17,8 @@ std::vector<accel::Hit> LightExchange::nearest_hits(std::vector<LightRay> rays) 
   return std::move(round.hits);
 }
 
-/// Returns a number for the ray at a place. The caller must hold the lock.
+/// Assigns a number to the ray at a place in a round, and returns the number. The caller must hold
+/// the lock.
 std::uint32_t LightExchange::number(Round& round, std::size_t place) {
   if (free_.empty()) {
     free_.push_back(static_cast<std::uint32_t>(waiting_.size()));

@@ -1,5 +1,5 @@
 #pragma once
-// Connects the threads that draw with the thread that sends and receives.
+// Connects the drawing threads with the thread that sends and receives.
 
 #include <chrono>
 #include <condition_variable>
@@ -20,7 +20,7 @@ class LightExchange {
   /// Throws std::runtime_error once the exchange is closed.
   std::vector<accel::Hit> nearest_hits(std::vector<LightRay> rays);
 
-  /// Returns the rays submitted since the last call; waits up to `moment` for some.
+  /// Returns the rays submitted since the last call; if there are none, waits up to `moment`.
   std::vector<LightRay> take(std::chrono::microseconds moment);
   /// Delivers a result. Throws ProtocolError unless the ray is waiting for it.
   void answer(const LightAnswer& answer);

@@ -8,7 +8,7 @@
 namespace beambench::cluster {
 namespace {
 
-/// Visits the transmitted members of each in order; the argument may be const.
+/// Visits the transmitted members of a ray in order; the argument may be const.
 template <class Ray>
 auto members(Ray& light) requires std::same_as<std::remove_const_t<Ray>, LightRay> {
   return std::tie(light.cell, light.number, light.query, light.ray.origin.x, light.ray.origin.y,

@@ -27,7 +27,7 @@ struct LightRay {
   accel::Hit best;  ///< the best hit so far, in the whole scene
 };
 
-/// The result of a ray: the closest hit in the whole scene, or whether there is any.
+/// The result of a ray: the closest hit in the whole scene, or whether the ray hits anything.
 struct LightAnswer {
   std::uint32_t number;
   accel::Hit hit;
@@ -46,8 +46,8 @@ class LightOutbox {
   void hand_over(const LightRay& ray);
   void answer(const LightAnswer& answer);
 
-  /// The size from which sending a message early pays, so that others can begin while this process
-  /// still works.
+  /// The size above which it pays to send a message early, so that its recipient can begin while
+  /// this process still works.
   static constexpr std::size_t kLarge = 1 << 12;
   /// Sends the messages of at least `least` bytes; by default, all nonempty ones.
   void send(std::size_t least = 1);

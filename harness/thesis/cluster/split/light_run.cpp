@@ -16,8 +16,8 @@
 namespace beambench::cluster {
 namespace {
 
-/// The number of parts of a picture drawn at the same time. Their threads mostly wait, each for one
-/// round of rays.
+/// The number of parts of a picture that are drawn at the same time. Each part has a thread, which
+/// mostly waits for a round of rays.
 constexpr int kDrawn = 16;
 
 /// Visits the transmitted members of a report in order.
@@ -74,7 +74,7 @@ std::vector<LightReport> LightLeader::answer(const Asking& asking) {
   return std::move(reports_);
 }
 
-/// Sends and receives, in this thread, on behalf of the querying threads.
+/// Sends and receives in this thread, on behalf of the querying threads.
 void LightLeader::answer_until_done(std::future<void> asked) {
   constexpr std::chrono::microseconds kMoment(100);
   try {

@@ -19,13 +19,13 @@
 
 namespace beambench::cluster {
 
-/// What a process did for the light.
+/// The work of a process for the light.
 struct LightReport {
   std::uint64_t rays_out = 0;     ///< shadow, mirror and refracted rays sent to other processes
-  std::uint64_t answers_out = 0;  ///< sent to process 0
+  std::uint64_t answers_out = 0;  ///< results sent to process 0
   Traffic out;                    ///< messages with rays or results
   Traffic rays_in;                ///< messages with rays
-  double cpu_seconds = 0.0;       ///< for tracing; on process 0 in total, including shading
+  double cpu_seconds = 0.0;       ///< for tracing; on process 0, also for shading
 };
 
 /// A picture, and how it was made.
@@ -42,7 +42,8 @@ struct DrawnLight {
 /// when all results have arrived, so termination need not be detected, and rounds of several parts
 /// of the picture overlap.
 ///
-/// Process 0 must have the whole scene, without an octree, because shaded points may be anywhere.
+/// Process 0 must have the whole scene, because shaded points may be anywhere; it needs no octree
+/// of it.
 ///
 /// Processes cannot be replaced: process 0 ends the run if one is silent.
 class LightLeader {
@@ -52,9 +53,9 @@ class LightLeader {
   LightLeader(Transport& transport, const PartWorker& worker, const SceneSplit& split,
               double timeout);
 
-  /// Calls `asking` with the divided scene in another thread, and traces its queries, which may
-  /// come from any number of threads. Shuts the other processes down at the end, even if an
-  /// exception is thrown. May be called only once. Returns the reports, by process.
+  /// Calls `asking` with the divided scene in another thread, and traces the queries that it makes,
+  /// from any number of threads. Shuts the other processes down at the end, even if an exception is
+  /// thrown. May be called only once. Returns the reports, by process.
   using Asking = std::function<void(const accel::Accelerator& divided)>;
   std::vector<LightReport> answer(const Asking& asking);
 

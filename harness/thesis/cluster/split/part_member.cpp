@@ -93,7 +93,7 @@ void PartMember::wait_for_all() {
   while (missing_ > 0) {
     const auto message = transport_->wait(kToLoadAndBuild * timeout_);
     if (!message) {
-      throw LostProcess(fmt::format("no process became ready for {:.0f} s; {} are missing",
+      throw LostProcess(fmt::format("no other process became ready within {:.0f} s; {} are missing",
                                     kToLoadAndBuild * timeout_, missing_));
     }
     handle(*message);
@@ -226,7 +226,8 @@ void PartMember::send_heartbeat() {
   last_sign_ = now;
 }
 
-/// Other processes reply when they are idle, and send heartbeats while they work.
+/// Throws LostProcess if another process is silent. Other processes reply when they are idle, and
+/// send heartbeats while they work.
 void PartMember::require_heartbeats() {
   if (!in_wave_) return;
   const double now = transport_->seconds();

@@ -25,7 +25,7 @@ class LostProcess : public InputError {
 /// part of the scene.
 LostProcess silent_part(ProcessId process, double timeout);
 
-/// The size of a process's part, and what the process did.
+/// The size of a process's part, and the work of the process.
 struct PartReport {
   std::uint64_t primitives = 0;
   std::uint64_t scene_bytes = 0;
@@ -35,7 +35,7 @@ struct PartReport {
   Traffic crossings_out;  ///< messages with beams and rays
   Traffic crossings_in;
   double cpu_seconds = 0.0;   ///< for tracing and for receiving handoffs
-  double wait_seconds = 0.0;  ///< for messages, wall time
+  double wait_seconds = 0.0;  ///< wall time waiting for messages
 };
 
 /// Sums over all processes, each taken when the process was idle.
@@ -49,7 +49,7 @@ struct Wave {
 /// Mattern's four counters ("Algorithms for distributed termination detection", Distributed
 /// Computing 2, 1987). It requests the numbers of handoff messages sent and received, and each
 /// process replies when it is idle. The run is over when two rounds yield the same sums, with as
-/// many sent as received.
+/// many messages sent as received.
 ///
 /// Processes cannot be replaced: process 0 ends the run if one is silent.
 class PartMember {
@@ -63,13 +63,13 @@ class PartMember {
   PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout, Check check,
              Meter meter = nullptr);
 
-  /// Runs process 0: works to the end and returns the final reports of the others, by process. The
-  /// others are shut down even if it throws.
+  /// Runs process 0: works to the end and returns the final reports of the other processes, by
+  /// process. They are shut down even if an exception is thrown.
   std::vector<Bytes> lead();
   /// Runs any other process: works to the end and sends `result`.
   void follow(const std::function<Bytes()>& result);
-  /// Returns whether the run has begun; it does not if process 0 finds that the processes do not
-  /// match.
+  /// Returns whether the run has begun. It does not begin if process 0 finds that the processes do
+  /// not match.
   bool began() const { return going_; }
 
   /// Returns the report so far.
@@ -120,7 +120,8 @@ class PartMember {
 
 /// A process's part of a scene, ready to be traced.
 struct PartState {
-  /// Frees the whole scene before building. Throws InputError for options that do not fit the job.
+  /// Frees the whole scene before building. Throws InputError for options that a divided scene does
+  /// not support.
   PartState(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport);
 
   accel::beam::BeamOptions options;

@@ -76,7 +76,7 @@ PartTracer::Passage PartTracer::any(const accel::Ray& ray, const Place& from) co
     is_hit = accel::any_reference_hit(part_->scene, references, canonical, none);
     return is_hit || canonical.t_max < static_cast<float>(exit_t);
   });
-  // The primitive and the place do not matter.
+  // The primitive and the t of this hit do not matter.
   return {is_hit ? accel::Hit{ray.t_max, 0} : kNoHit, exit};
 }
 

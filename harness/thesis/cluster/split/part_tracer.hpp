@@ -37,10 +37,10 @@ accel::octree::OctreeCursor cursor_of_cell(const accel::octree::Octree& octree,
 /// The best hit of a ray that has not hit anything.
 inline constexpr accel::Hit kNoHit{accel::kInfinity, scenes::kNoPrimitive};
 
-/// Traces rays from where they begin or enter this part to where they end or enter another
+/// Traces each ray from where it begins or enters this part to where it ends or enters another
 /// process's cell. The combined hits of all parts along a ray equal those of a single process, bit
-/// for bit: a ray carries its best hit, which limits the search, and at equal t the whole scene's
-/// ids decide. Queries are const and thread-safe.
+/// for bit: a ray carries its best hit, which limits the search, and ties in t are decided by the
+/// ids of the whole scene. Queries are const and thread-safe.
 class PartTracer {
  public:
   /// All arguments must outlive this object.
@@ -53,9 +53,10 @@ class PartTracer {
     accel::octree::OctreeCursor cursor;
     double t;
   };
-  /// Returns where a ray begins, whether in this part or not; nothing if it misses the root.
+  /// Returns the place where a ray begins, even outside this part; nothing if the ray misses the
+  /// root.
   std::optional<Place> beginning(const accel::Ray& ray) const;
-  /// Returns where a ray enters one of this process's cells at t.
+  /// Returns the place where a ray enters one of this process's cells at t.
   Place entry(std::uint32_t cell, double t) const;
 
   /// The place where a ray enters another process's cell.
@@ -63,14 +64,14 @@ class PartTracer {
     std::uint32_t cell;
     double t;
   };
-  /// The result of a ray so far, and where it continues; nothing there if the result is final.
+  /// The result of a ray so far, and where it continues.
   struct Passage {
-    accel::Hit best;  ///< by the whole scene's ids
+    accel::Hit best;  ///< with the id in the whole scene
     std::optional<Exit> exit;
   };
   /// Continues a ray whose best hit so far is `best`.
   Passage closest(const accel::Ray& ray, const Place& from, const accel::Hit& best) const;
-  /// Continues a ray that ends at any hit and has none so far.
+  /// Continues a ray that ends at any hit and has not hit anything so far.
   Passage any(const accel::Ray& ray, const Place& from) const;
 
   accel::Hit global(const std::optional<accel::Hit>& local) const {

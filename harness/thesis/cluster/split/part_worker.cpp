@@ -118,7 +118,7 @@ PartWorker::PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
   queue_.border = this;
 }
 
-/// Keeps the beams of this part: the owner of the cell in which a beam begins starts it.
+/// Keeps the beams of this part. Each beam is started by the owner of the cell in which it begins.
 void PartWorker::keep_own_beams() {
   accel::beam::BeamStack begun;
   accel::beam::BeamStep step;

@@ -29,7 +29,7 @@ struct BeamHandoff {
 /// A ray that enters another process's cell, with its best hit so far.
 struct RayHandoff {
   std::uint32_t cell;
-  std::uint32_t sample;      ///< its place in the hit buffer
+  std::uint32_t sample;      ///< its index in the hit buffer
   double t;                  ///< the t at which it enters
   float best_t;              ///< infinity for a miss
   scenes::PrimitiveId best;  ///< in the whole scene
@@ -50,8 +50,8 @@ class Outbox {
   void hand_over(const BeamHandoff& beam);
   void hand_over(const RayHandoff& ray);
 
-  /// The size from which sending a message early pays, so that others can begin while this process
-  /// still works.
+  /// The size above which it pays to send a message early, so that its recipient can begin while
+  /// this process still works.
   static constexpr std::size_t kLarge = 1 << 11;
   /// Sends the messages of at least `least` bytes; by default, all nonempty ones.
   void send(std::size_t least = 1);
@@ -113,13 +113,13 @@ enum class PartWork {
 };
 
 /// The beam tracer over a part of a scene. Beams and rays that reach the border are passed on to
-/// other processes, rays with their best hit; those that other processes pass on continue here.
+/// other processes, rays with their best hit. Beams and rays from other processes continue here.
 /// Together, the processes find the same hits as one process with the whole scene, bit for bit:
 /// beams are divided by the same planes, a primitive is tested in every cell that it overlaps, and
 /// at equal t the lowest id of the whole scene wins.
 class PartWorker : private accel::beam::BeamBorder {
  public:
-  /// Begins the beams that begin in this part. Rays and outbox must outlive the worker. Throws
+  /// Starts the beams that begin in this part. Rays and outbox must outlive the worker. Throws
   /// InputError for options that a divided scene does not support.
   PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
              const accel::beam::BeamOptions& options, const accel::PrimaryRays& rays,

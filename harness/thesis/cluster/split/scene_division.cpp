@@ -50,7 +50,8 @@ Owners runs(std::span<const std::uint32_t> order, std::span<const double> weight
   return owners;
 }
 
-/// Deals the cells in turn. Empty cells are dealt separately, because beams may begin in them.
+/// Deals the cells out in turn. Empty cells are dealt out separately; they need owners because
+/// beams may begin in them.
 Owners interleaved(std::span<const std::uint32_t> order, const CellLoads& loads, int processes) {
   Owners owners(order.size());
   std::array<int, 2> dealt{};
@@ -95,11 +96,11 @@ class Bisection {
   struct Plane {
     int axis;
     int at;
-    double error;  ///< relative excess or deficit of the lower side
+    double error;  ///< relative difference between the lower side and its share
   };
 
-  /// Returns the plane for which the lower side is closest to its processes' share. There must be
-  /// more than one layer.
+  /// Returns the plane for which the load of the lower side is closest to its processes' share.
+  /// There must be more than one layer.
   Plane best_plane(const Part& part, int axis, double share) const {
     std::vector<double> layers(static_cast<std::size_t>(part.upper[axis] - part.lower[axis]));
     for_each_cell(part, [&](const glm::ivec3& cell, std::uint32_t i) {
@@ -181,7 +182,7 @@ Owners scattered(std::span<const std::uint32_t> order, std::span<const double> w
   return owners;
 }
 
-/// Returns weights that include a small amount for each cell, so that empty ones are distributed,
+/// Returns weights that include a small amount for each cell, so that empty cells are distributed,
 /// too.
 std::vector<double> weights_of(const CellLoads& loads, SceneDivision division) {
   std::vector<double> weights(loads.primitives.begin(), loads.primitives.end());

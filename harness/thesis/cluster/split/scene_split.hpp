@@ -14,7 +14,7 @@
 
 namespace beambench::cluster {
 
-/// The cells of one level into which the primitives of a scene reach, judging by their boxes.
+/// The cells of one level, and for each primitive the cells into which its box reaches.
 class SceneCells {
  public:
   /// Uses cells of `level`, at most 7 and not deeper than the octree of `options`.
@@ -70,8 +70,8 @@ SceneSplit split_scene(const scenes::Scene& scene, const accel::octree::OctreeOp
                        const accel::PrimaryRays& rays, int level, SceneDivision division,
                        int processes);
 
-/// Returns the part of an octree that a process builds: all nonempty cells exist, as leaves if they
-/// belong to another process.
+/// Returns the part of an octree that a process builds. All nonempty cells exist in it; those of
+/// other processes are leaves.
 accel::octree::OctreePart own_cells(const SceneSplit& split, ProcessId process);
 
 /// The part of a scene that one process keeps.

@@ -37,7 +37,7 @@ std::shared_ptr<const scenes::Scene> load_whole(const Job& job,
   return std::make_shared<const scenes::Scene>(scenes::load_scene(job.scene, warnings));
 }
 
-/// Sets up a process. The scene is kept only if the caller keeps it.
+/// Sets up a process. The whole scene is freed unless the caller keeps it.
 Setup set_up(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport) {
   Setup place{{visible_hash(*whole), whole->primitives.size(), 0, 0},
               scenes::memory_bytes(*whole),
@@ -185,7 +185,7 @@ std::string summary_of_light(const SplitRun& run) {
     rays += report.rays_out;
   }
   return fmt::format(
-      "; light in {:.3f} s, its rays were passed on {} times, in {} messages with {:.2f} MB",
+      "; light in {:.3f} s; its rays were passed on {} times, in {} messages with {:.2f} MB",
       run.light_seconds, rays, out.messages, 1e-6 * static_cast<double>(out.bytes));
 }
 
@@ -211,7 +211,7 @@ std::string summary(const SplitRun& run) {
       1e-6 * static_cast<double>(crossings.bytes), most, run.whole_primitives,
       1e-6 * static_cast<double>(largest));
   if (run.shading_bytes > 0) {
-    text += fmt::format("; process 0 keeps the whole scene to shade it, {:.2f} MB more",
+    text += fmt::format("; process 0 also keeps the whole scene for shading, {:.2f} MB",
                         1e-6 * static_cast<double>(run.shading_bytes));
   }
   return text + summary_of_light(run);

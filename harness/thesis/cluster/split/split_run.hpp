@@ -18,11 +18,11 @@ struct SplitRun {
   double seconds = 0.0;             ///< wall time from the first beam to the last hit
   std::vector<LightReport> light;   ///< by process; empty if no light was requested
   double light_seconds = 0.0;       ///< wall time from the last hit to the picture
-  render::RayCensus census;         ///< of the light
-  std::uint64_t shading_bytes = 0;  ///< of the whole scene, if process 0 keeps it to shade
+  render::RayCensus census;         ///< rays traced for the light
+  std::uint64_t shading_bytes = 0;  ///< size of the whole scene, if process 0 keeps it for shading
   std::uint64_t whole_scene_bytes = 0;
   std::uint64_t whole_primitives = 0;
-  std::uint64_t result_hash = 0;  ///< of the hits, or of the picture's light
+  std::uint64_t result_hash = 0;  ///< hash of the hits, or of the picture's light
 };
 
 /// Counterparts of `lead` and `follow` in which each process keeps only its part of the scene. Each

@@ -144,7 +144,7 @@ void trace(const std::string& mesh, const std::string& rays, const std::string& 
   std::string magic, header;
   std::getline(in, magic);
   std::getline(in, header);
-  if (magic != "beambench-rays 1") throw std::runtime_error(rays + " is not a file of rays");
+  if (magic != "beambench-rays 1") throw std::runtime_error(rays + " is not a ray file");
   const std::size_t count = std::stoull(member(header, "rays"));
   const bool any = member(header, "query").starts_with("\"any\"");
 

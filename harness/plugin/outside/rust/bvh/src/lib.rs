@@ -1,4 +1,4 @@
-//! bvh: its hierarchy and its test of triangles, which sees one side: both sides are tested.
+//! bvh: its hierarchy and its triangle test, which hits only one side, so both sides are tested.
 #[path = "../../../../../../tests/plugin/rust/src/beambench.rs"]
 mod beambench;
 use beambench::{Ray, Scene, Tracer};
@@ -36,7 +36,7 @@ struct Library {
 }
 
 impl Library {
-    /// Calls `visit` with t and the primitive of the hits in the interval.
+    /// Calls `visit` with the t and the primitive of each hit in the interval.
     fn hits<'a>(&'a self, ray: &'a Ray) -> impl Iterator<Item = (f32, u32)> + 'a {
         let direction = Vector3::from(ray.direction);
         let unit = direction.norm(); // the library normalizes

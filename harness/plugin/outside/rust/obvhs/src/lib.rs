@@ -1,4 +1,4 @@
-//! obvhs: its compressed hierarchy of eight children a node, and its own test of triangles.
+//! obvhs: its compressed hierarchy with eight children per node, and its own triangle test.
 #[path = "../../../../../../tests/plugin/rust/src/beambench.rs"]
 mod beambench;
 use beambench::{Ray, Scene, Tracer};

@@ -1,4 +1,4 @@
-//! parry3d: its triangle mesh, which is hollow for rays.
+//! parry3d: its triangle mesh, traced as a surface, not as a solid.
 #[path = "../../../../../../tests/plugin/rust/src/beambench.rs"]
 mod beambench;
 use beambench::{Ray, Scene, Tracer};
@@ -33,7 +33,7 @@ impl Tracer for Parry {
     }
 
     fn any_hit(&self, ray: &Ray) -> bool {
-        self.closest_hit(ray).is_some() // there is no query of its own
+        self.closest_hit(ray).is_some() // parry3d has no any-hit query
     }
 }
 
