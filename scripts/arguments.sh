@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by the scripts that measure sweeps, each of which has a usage() of its own.
+# Sourced by the scripts that measure sweeps, each of which has its own usage().
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 refuse() {  # WORD...: why the arguments are refused
@@ -7,10 +7,10 @@ refuse() {  # WORD...: why the arguments are refused
   exit 2
 }
 
-find_sweep() {  # SWEEP: sets `sweep` to a file, given as such or as the name of a committed sweep
+find_sweep() {  # SWEEP: sets `sweep` to a file, given by its path or as the name of a committed sweep
   local sweeps=$root/harness/measure/sweeps
   sweep=$sweeps/$1.json
   [[ -f $sweep ]] || sweep=$(realpath -m -- "$1")
   [[ -f $sweep && -r $sweep ]] || refuse "$sweep is not a file that can be read, and no sweep has that" \
-    "name; there are: $(cd "$sweeps" && printf '%s ' *.json | sed 's/\.json//g')"
+    "name; the sweeps are: $(cd "$sweeps" && printf '%s ' *.json | sed 's/\.json//g')"
 }

@@ -8,7 +8,7 @@ listed_packages() {  # LIST...: files in scripts/, one package per line
 is_installed() { [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]; }
 
 # Reads apt's status lines (dlstatus:PACKAGE:PERCENT:TEXT while it downloads, then pmstatus:...) and
-# prints each tenth that is done.
+# prints the progress in steps of 10%.
 show_progress() {
   local kind percent phase last=
   while IFS=: read -r kind _ percent _; do
@@ -20,7 +20,7 @@ show_progress() {
   done
 }
 
-install_packages() {  # PACKAGE...: those that are missing
+install_packages() {  # PACKAGE...: installs those that are missing
   local missing=() package as_root=(env)
   if ! command -v dpkg-query apt-get >/dev/null; then
     say "No apt here: counting on these being installed by other means: $*"
@@ -32,15 +32,15 @@ install_packages() {  # PACKAGE...: those that are missing
   ((${#missing[@]} > 0)) || return 0
 
   if ((EUID != 0)); then
-    command -v sudo >/dev/null || fail "these packages are missing and this is neither root nor a machine with sudo; have them installed with: apt-get install ${missing[*]}"
+    command -v sudo >/dev/null || fail "packages are missing, and installing them needs root or sudo; have them installed with: apt-get install ${missing[*]}"
     as_root=(sudo)
   fi
   say "Installing with apt-get: ${missing[*]}"
   as_root+=(env DEBIAN_FRONTEND=noninteractive)
   "${as_root[@]}" apt-get -qq -o Acquire::Retries=3 update ||
     say "apt-get update had problems; trying to install anyway"
-  # The status has a descriptor of its own, opened below sudo, which closes what it is given: with
-  # that of the output, the packages' own scripts would find theirs closed.
+  # The status has its own descriptor, opened below sudo, because sudo closes inherited ones. If it
+  # shared the output's descriptor, the packages' own scripts would find their output closed.
   "${as_root[@]}" sh -c 'exec apt-get "$@" 3>&1 >&2' sh -qq -y --no-install-recommends \
     -o Acquire::Retries=3 -o APT::Status-Fd=3 -o Dpkg::Use-Pty=0 install "${missing[@]}" \
     2>build/apt.log | show_progress || {

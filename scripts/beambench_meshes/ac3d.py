@@ -1,4 +1,4 @@
-"""Converts a file of AC3D, or of its variant ACC with triangle strips, to OBJ.
+"""Converts a file in the format AC3D, or its variant ACC with triangle strips, to OBJ.
 
 usage: .venv/bin/python -m beambench_meshes.ac3d INPUT.ac OUTPUT.obj
 
@@ -64,9 +64,9 @@ class _Motion:
 
 
 def convert(text: str) -> Model:
-    """Reads a model. Raises Problem, without the name of the file, where it is malformed."""
+    """Reads a model. Raises Problem, without the file's name, if the model is malformed."""
     if not text.startswith("AC3D"):
-        raise Problem("it is not a model of AC3D: it does not begin with AC3D")
+        raise Problem("it is not an AC3D model: it does not begin with AC3D")
     reader = _Reader(text)
     try:
         reader.read()
@@ -128,23 +128,23 @@ class _Reader:
             elif word == "kids":
                 below = parent.after(_Motion(rows, offset))
                 for number in range(_count(rest)):
-                    if not self._has_more():  # TORCS counts missing objects
+                    if not self._has_more():  # files of TORCS count objects that are missing
                         self.model.surfaces["objects that the file lacks"] += _count(rest) - number
                         return
                     if self._words()[0] != "OBJECT":
-                        raise Problem("an object must stand here")
+                        raise Problem("an object is expected here")
                     self._object(below)
                 return
 
     def _surface(self, texture: str, points: list[Point]) -> None:
         word, flags = self._words()
         if word != "SURF":
-            raise Problem("a surface must stand here")
+            raise Problem("a surface is expected here")
         words = self._words()
         if words[0] == "mat":
             words = self._words()
         if words[0] != "refs":
-            raise Problem("the corners of a surface must stand here")
+            raise Problem("the corners of a surface are expected here")
         corners = [int(self._words()[0]) for _ in range(_count(words[1:]))]
         if corners and not 0 <= min(corners) <= max(corners) < len(points):
             raise Problem(f"a surface has a corner beyond its {len(points)} vertices")
@@ -182,7 +182,7 @@ def _count(words: list[str]) -> int:
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the command line; returns the exit code."""
     if len(arguments) != 2:
         print("usage: ac3d INPUT.ac OUTPUT.obj", file=sys.stderr)
         return 2
@@ -191,7 +191,7 @@ def main(arguments: list[str]) -> int:
         try:
             model = convert(source.read_text("latin-1"))
         except Problem as problem:
-            raise Problem(f"{source}: {problem}; take a whole, unchanged one") from None
+            raise Problem(f"{source}: {problem}; use a whole, unchanged file") from None
         model.mesh.write(Path(arguments[1]))
     except (Problem, OSError) as problem:
         print(f"error: {problem}", file=sys.stderr)

@@ -13,18 +13,18 @@ from beambench_meshes.say import say
 
 
 def find(name: str) -> Download:
-    """Returns the scene of that name. Raises Problem, which lists the known names."""
+    """Returns the scene with that name. Raises Problem if there is none, with the known names."""
     for download in DOWNLOADS:
         if download.name == name:
             return download
     names = ", ".join(download.name for download in DOWNLOADS)
-    raise Problem(f"--from knows no '{name}', only {names}")
+    raise Problem(f"--from has no scene '{name}', only {names}")
 
 
 def find_file(folder: Path, download: Download) -> Path:
     """Returns the scene's file in the folder or below.
 
-    Raises Problem, which says where to get it.
+    Raises Problem if there is no such file, with the place to get it from.
     """
     expected = " or ".join(download.files)
     get = f"{download.name} is from {download.where}"
@@ -43,10 +43,7 @@ def register(download: Download, file: Path, cache: Path, beambench: Path) -> No
     former = _former(entry)
     checksum = sha256(file)
     if former.get("path") == str(file) and former.get("sha256", checksum) != checksum:
-        say(
-            f"{file} is not the file that it was when it was registered "
-            f"(SHA-256 {former['sha256']})"
-        )
+        say(f"{file} has changed since it was registered (SHA-256 {former['sha256']})")
     content: dict[str, object] = {
         "path": str(file),
         "up": download.up,
@@ -94,23 +91,21 @@ def _version(download: Download, triangles: int) -> Version | None:
 def _compare(download: Download, version: Version | None, checksum: str) -> None:
     if version is None:
         known = ", or ".join(f"{one.triangles:,} ({one.which})" for one in download.versions)
-        say(
-            f"No published version has as many; known are {known}: what is measured here is another"
-        )
+        say(f"No published version has as many triangles: there are {known}; this is another one")
     elif version.sha256 and version.sha256 != checksum:
         say(
-            f"As many as {version.which} has, but another SHA-256 than the printed one, "
+            f"As many triangles as {version.which} has, but the SHA-256 is not the published one, "
             f"{version.sha256}: the file may be cut off or edited"
         )
     else:
         checked = (
-            "and the SHA-256 is the printed one" if version.sha256 else "no SHA-256 is published"
+            "and the SHA-256 is the published one" if version.sha256 else "no SHA-256 is published"
         )
         say(f"As many triangles as {version.which} has; {checked}")
 
 
 def _cameras(version: Version, loaded: Loaded) -> list[dict[str, object]]:
-    """Returns the cameras whose eyes are within the mesh: a copy may be scaled."""
+    """Returns the cameras whose eyes are within the mesh, because a copy may be scaled."""
     inside = [camera for camera in version.cameras if _holds(loaded, camera)]
     if version.cameras:
         say(
@@ -118,7 +113,7 @@ def _cameras(version: Version, loaded: Loaded) -> list[dict[str, object]]:
             + (
                 ""
                 if len(inside) == len(version.cameras)
-                else "; the others are outside of this mesh, whose coordinates are others"
+                else "; the others are outside of this mesh, whose coordinates differ"
             )
         )
     return [camera.as_json() for camera in inside]

@@ -1,4 +1,4 @@
-"""Scenes of the literature that are in no registry: a user downloads them, `--from` registers them.
+"""Scenes from the literature that no registry has: users download and `--from` registers them.
 
 Every fact about them cites its source. Where no checksum is published, the number of triangles
 identifies the version, and the checksum of the user's file is stored, so that a later run notices a
@@ -16,7 +16,7 @@ _MCGUIRE = "the McGuire Computer Graphics Archive (casual-effects.com/data)"
 
 @dataclass(frozen=True)
 class Version:
-    """A version of a scene, known by its number of triangles, with the cameras that fit it."""
+    """A version of a scene, identified by its number of triangles, with the cameras that fit it."""
 
     triangles: int
     which: str
@@ -77,7 +77,7 @@ DOWNLOADS = (
         "CC-BY-3.0 (Crytek's), CC-BY-NC (Dabrovic's)",
         ("sponza.obj",),
         (
-            # Our own: papers do not publish coordinates for their views of the nave.
+            # The camera is ours: papers do not publish coordinates for their views of the nave.
             Version(262267, "Crytek's", cameras=_NAVE, cameras_by="this project"),
             Version(66450, "Dabrovic's"),
         ),

@@ -21,7 +21,7 @@ class Camera:
     eye: Point
     at: Point
     angle: float = 60.0
-    up: Point | None = None  # if not given, that of the mesh
+    up: Point | None = None  # default: that of the mesh
 
     def as_json(self) -> dict[str, object]:
         """Returns the camera as an entry stores it."""
@@ -34,7 +34,7 @@ class Loaded:
     """A mesh as beambench read it."""
 
     triangles: int
-    without_area: int  # left out
+    without_area: int  # triangles left out
     lower: Point
     upper: Point
 

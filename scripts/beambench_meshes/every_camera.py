@@ -3,7 +3,7 @@
 usage: PYTHONPATH=scripts python -m beambench_meshes.every_camera PROGRAM OUTPUT.csv
 
 PROGRAM is beambench. Cameras are those of the recipe, or else fitted to the mesh. The output has a
-row for each mesh, camera, kind of rays and structure, as in `beambench verify --json`.
+row for each mesh, camera, ray kind and structure, as in `beambench verify --json`.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _FITTED = ("three-quarter", "front", "side", "top")
 
 
 def views() -> list[tuple[str, str]]:
-    """Yields the mesh and camera of each view."""
+    """Returns the mesh and camera of each view."""
     return [
         (recipe.name, camera)
         for recipe in RECIPES
@@ -50,7 +50,7 @@ def _cells(program: str, mesh: str, camera: str) -> Iterator[dict[str, object]]:
 
 
 def main() -> int:
-    """Returns the exit code: 2 for invalid arguments. A wrong hit is a row, not a failure."""
+    """Writes the rows. Returns the exit code: 2 for invalid arguments, 0 even if hits are wrong."""
     if len(sys.argv) != 3:
         print(__doc__, file=sys.stderr)
         return 2

@@ -27,7 +27,7 @@ class Registry:
         self._beambench = beambench
 
     def register(self, recipe: Recipe) -> bool:
-        """Fetches, converts and registers a mesh; if that fails, says why."""
+        """Fetches, converts and registers a mesh; prints the reason if that fails."""
         self._packages.fetch(recipe.package)
         folder = self._packages.folder / recipe.package.name
         for source in recipe.sources:
@@ -61,7 +61,7 @@ class Registry:
             also = f" and {left_out} without area" if left_out else ""
             say(
                 f"mesh:{recipe.name} has {loaded.triangles} triangles{also}, not "
-                f"{recipe.triangles}: the package holds another mesh than it did"
+                f"{recipe.triangles}: the mesh in the package has changed"
             )
         return True
 
@@ -80,8 +80,8 @@ class Registry:
             if found != source.sha256:
                 name = f"{source.path}, {source.member}" if source.member else source.path
                 say(
-                    f"{name} of {recipe.package.name} is not the file that it was "
-                    f"(SHA-256 {found}, not {source.sha256}); its triangles are counted, too"
+                    f"{name} of {recipe.package.name} has changed "
+                    f"(SHA-256 {found}, not {source.sha256}); its triangles are compared, too"
                 )
 
     def _mesh_file(self, recipe: Recipe, folder: Path) -> Path:

@@ -20,7 +20,7 @@ def licenses() -> list[tuple[str, str, str, str]]:
 
 
 def listing() -> str:
-    """Prints the table to a terminal."""
+    """Returns the text of `--list`."""
     lines = _aligned(
         [("mesh", "triangles", "package", "MB"), *_short()], right=(False, True, False, True)
     )

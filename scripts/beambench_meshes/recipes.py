@@ -2,8 +2,8 @@
 
 To add one, add a recipe, and its row to the tables in scripts/README.md. `triangles` is the number
 in the package's file, counted independently of the converter; `sha256` is that of the file that is
-read, since versions of a package may differ only in other files. Cameras of a map are at starts of
-its players, as printed by `.venv/bin/python -m beambench_meshes.quake3_bsp`.
+read, since versions of a package may differ only in other files. A map's cameras are at player
+starts, as printed by `.venv/bin/python -m beambench_meshes.quake3_bsp`.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Recipe:
-    """How to get one mesh."""
+    """The way to get one mesh."""
 
     name: str
     what: str
@@ -74,7 +74,7 @@ class Recipe:
     package: Package
     sources: tuple[Source, ...]
     conversion: str = AS_IT_IS
-    level: int = LEVEL  # of a map's curved patches
+    level: int = LEVEL  # subdivision of a map's curved patches
     up: str = ""  # default: that of the format
     front: str = ""
     cameras: tuple[Camera, ...] = ()
@@ -83,7 +83,7 @@ class Recipe:
 
     @property
     def about(self) -> str:
-        """Returns the sentence that describes it in its entry."""
+        """Returns the description of the mesh in its entry."""
         where = f"{'npm' if self.package.registry == 'npm' else 'Debian'}'s {self.package.name}"
         pieces = "pieces of " if self.conversion == ROOM else ""
         return f"{self.what}, {self.triangles:,} triangles ({pieces}{where})"

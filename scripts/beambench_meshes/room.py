@@ -2,8 +2,8 @@
 
 usage: .venv/bin/python -m beambench_meshes.room FURNITURE_FOLDER OUTPUT.obj
 
-The room has a floor and two open sides. Meters, y up. The pieces have the sizes that their catalogs
-give them. It needs only Python.
+The room has a floor and two open sides. Units are meters, and y is up. The pieces have the sizes
+stated in their catalogs.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class Catalog:
     """One of the package's files: a ZIP with models and a list of their sizes."""
 
     def __init__(self, file: Path) -> None:
-        """Reads the list. Raises Problem if the file is missing or is a different one."""
+        """Reads the list. Raises Problem if the file is missing or cannot be read."""
         try:
             self._zip = zipfile.ZipFile(file)
             listed = self._zip.read("PluginFurnitureCatalog.properties").decode("latin-1")
@@ -86,7 +86,7 @@ class Catalog:
     def piece(self, model: str) -> tuple[dict[str, str], Mesh]:
         """Returns an entry of the list and its model."""
         if model not in self._entries:
-            raise Problem(f"{self._file}: it has no model '{model}'; is the package another one?")
+            raise Problem(f"{self._file}: it has no model '{model}'; is this another package?")
         entry = self._entries[model]
         path = PurePosixPath(entry["model"].lstrip("/"))
         mesh = Mesh([], [], {})
@@ -219,14 +219,14 @@ def write(meshes: list[Mesh], output: Path) -> None:
                 material = name
             lines.append("f " + " ".join(str(first + corner) for corner in corners))
         first += len(mesh.vertices)
-    target = output.resolve()  # of a link, what it leads to
+    target = output.resolve()  # the target of a link
     pending = target.with_name(f".pending-{target.name}")
     pending.write_text("\n".join(lines) + "\n")
     pending.replace(target)
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the command line; returns the exit code."""
     if len(arguments) != 2:
         print("usage: room FURNITURE_FOLDER OUTPUT.obj", file=sys.stderr)
         return 2

@@ -1,4 +1,4 @@
-"""Polygons with surfaces, and the OBJ files that they are written to."""
+"""Polygons with surfaces, and the OBJ files to which they are written."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from beambench_meshes.problem import Problem
 Point = tuple[float, float, float]
 Color = tuple[float, float, float]
 
-_LARGEST = 1e9  # of a coordinate: what beambench takes
+_LARGEST = 1e9  # the largest coordinate that beambench accepts
 _FLOAT = struct.Struct("<f")
 
 
@@ -32,8 +32,8 @@ class SurfaceMesh:
 
     def vertex(self, place: Point) -> int:
         """Returns the index of the vertex at a place."""
-        if not all(abs(part) <= _LARGEST for part in place):  # catches NaN too
-            raise Problem(f"it has a vertex at {place}, beyond all that is meant")
+        if not all(abs(part) <= _LARGEST for part in place):  # also catches NaN
+            raise Problem(f"it has a vertex at {place}, which is too far away")
         number = self._places.setdefault(place, len(self.vertices))
         if number == len(self.vertices):
             self.vertices.append(place)
@@ -66,7 +66,7 @@ class SurfaceMesh:
 
 
 def _write_whole(path: Path, text: str) -> None:
-    target = path.resolve()  # of a link, what it leads to
+    target = path.resolve()  # the target of a link
     pending = target.with_name(f".pending-{target.name}")
     pending.write_text(text)
     pending.replace(target)

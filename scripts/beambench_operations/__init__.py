@@ -1,4 +1,5 @@
-"""Operating beambench: nights and their history, the site, campaigns, and publishing.
+"""Operating beambench: nights and their history, the site, campaigns, publishing, and releases.
 
-Each part is a package: history, site, nightly, campaign, publish, in this order.
+Each part is a package: history, site, nightly, campaign, publish, referee, release. Each imports
+only those before it.
 """

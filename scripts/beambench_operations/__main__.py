@@ -37,7 +37,7 @@ def _parser() -> argparse.ArgumentParser:
         lambda o: [write_site(o.folders, o.output)],
         help="write a site of plain files over all runs: index, pages, comparisons, histories",
     )
-    site("folders", type=Path, nargs="+", metavar="DIR", help="a run, or a folder that holds runs")
+    site("folders", type=Path, nargs="+", metavar="DIR", help="a run, or a folder of runs")
     site("-o", "--output", type=Path, required=True, metavar="SITE", help="a new folder, or a site")
     compare = add_command(
         commands, "compare", _compare, help="run two programs in turns: is B slower?"
@@ -57,8 +57,8 @@ def _parser() -> argparse.ArgumentParser:
     two(
         "--relative",
         action=argparse.BooleanOptionalAction,
-        help="by the ratio to a contender that both files have; if not given, where the machines "
-        "differ, whose milliseconds are refused",
+        help="compare ratios to a contender that both files have (default: only if the machines "
+        "differ, because their milliseconds are not comparable)",
     )
     benchmarks = add_command(
         commands,

@@ -1,4 +1,4 @@
-"""Plots and pictures of a beambench run.
+"""Draws the plots, pictures and page of a beambench run.
 
-They are made from its files alone (results.csv and its columns), independently of the C++ code.
+They are made from the run's files. Names, ratios and conclusions come from harness/analysis.
 """

@@ -44,7 +44,7 @@ _FORMER_COMMANDS = {
         for name in ("benchmarks", "compare", "diff", "nightly", "site")
     },
 }
-"""The new package and command of each moved command; the old names work for one version."""
+"""The new package and name of each moved command; the old names work for one version."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -92,7 +92,7 @@ def _add_commands_on_runs(commands: Commands) -> None:
         commands,
         "page",
         lambda o: write_page(o.run, o.reference),
-        help="write RUN/report.html from all that RUN holds; it draws what RUN/plots lacks",
+        help="write RUN/report.html from the files in RUN; if there are no RUN/plots, draw them",
     )
     whole = add_command(
         commands,
@@ -104,7 +104,7 @@ def _add_commands_on_runs(commands: Commands) -> None:
         commands,
         "coverage",
         lambda o: write_coverage(o.run, o.second),
-        help="count what lies within the prediction intervals of the other run, both ways",
+        help="count how often values of each run lie in the other run's prediction intervals",
     )
     drawn = add_command(
         commands,
@@ -121,7 +121,7 @@ def _add_commands_on_runs(commands: Commands) -> None:
         choices=names,
         default=names,
         metavar="KIND",
-        help=f"draw only these of {', '.join(map(repr, names))}; if not given, all",
+        help=f"draw only these plots: any of {', '.join(map(repr, names))}; if not given, all",
     )
     covered("second", type=Path, metavar="SECOND", help="the same sweep, run again")
     for command in (pictures, whole):
@@ -132,8 +132,8 @@ def _add_commands_on_runs(commands: Commands) -> None:
         command(
             "--reference",
             metavar="CONTENDER",
-            help="whose times are 1 in the ratios, as the plots call it; if not given, the "
-            "contender with correct hits in the most views, Embree's fastest rather than others",
+            help="the contender whose time is 1 in the ratios, as plots name it; if not given, the "
+            "one with correct hits in the most views, preferably Embree's fastest",
         )
 
 
@@ -142,18 +142,23 @@ def _add_tables(commands: Commands) -> None:
         commands,
         "winners",
         lambda o: write_winners(o.run, o.output),
-        help="which structure wins where, each with its own best parameters",
+        help="list which structure wins in each view, every structure with its best parameters",
     )
     ratios = add_command(
         commands,
         "ratios",
         lambda o: write_ratios(o.run, o.to, o.output),
-        help="every contender over one of them, or over the best of a structure",
+        help="divide all times by the times of one contender, or of a structure's fastest",
     )
-    ratios("--to", required=True, metavar="NAME", help="a contender, as plots call it; a structure")
+    ratios(
+        "--to",
+        required=True,
+        metavar="NAME",
+        help="a contender, named as in the plots, or a structure",
+    )
     for command in (winners, ratios):
         command("run", type=Path, metavar="RUN", help="folder of a run")
-        _add_output(command, "FILE.md", "if not given, it is printed")
+        _add_output(command, "FILE.md", "if not given, the table is printed")
     embree = add_command(
         commands,
         "embree-comparison",
@@ -161,7 +166,7 @@ def _add_tables(commands: Commands) -> None:
         help="compare tile beams with Embree's fastest mode",
     )
     embree("runs", type=Path, nargs="+", metavar="RUN", help="folder of a run")
-    _add_output(embree, "FILE.md", "if not given, it is printed; its plots come beside it")
+    _add_output(embree, "FILE.md", "if not given, the report is printed without plots")
 
 
 def _add_output(command: AddArgument, metavar: str, words: str) -> None:
@@ -173,15 +178,15 @@ def _add_commands_on_scenes(commands: Commands) -> None:
         commands,
         "growth",
         lambda o: write_growth(o.files, o.output),
-        help="draw what beambench scene NAME --growth --csv wrote",
+        help="draw the output of beambench scene NAME --growth --csv",
     )
     growth("files", type=Path, nargs="+", metavar="FILE.csv")
-    _add_output(growth, "FILE.png", "if not given, beside the first file; an SVG comes beside it")
+    _add_output(growth, "FILE.png", "if not given, beside the first file; an SVG is written too")
     sheet = add_command(
         commands,
         "contact-sheet",
         _contact_sheet,
-        help="render scenes, side by side on one picture",
+        help="render scenes side by side in one picture",
     )
     sheet("-o", "--output", type=Path, required=True, metavar="FILE.png")
     sheet(
@@ -193,7 +198,7 @@ def _add_commands_on_scenes(commands: Commands) -> None:
     sheet(
         "--registered",
         action="store_true",
-        help="the meshes that are registered, each as its first camera sees it",
+        help="render the registered meshes, each from its first camera",
     )
     sheet(
         "--beambench",
@@ -209,18 +214,23 @@ def _add_other_works(commands: Commands) -> None:
         commands,
         "haines",
         lambda o: [measure_tests(o.folder, o.program.absolute()), write_haines(o.folder)],
-        help="count Haines's tests of the SPD (1987) again, ours beside his",
+        help="repeat Haines's counts of tests on the SPD (1987), and set ours beside his",
     )
-    haines("folder", type=Path, metavar="DIR", help="gets tests.csv and report.md; is resumed")
+    haines(
+        "folder",
+        type=Path,
+        metavar="DIR",
+        help="for tests.csv and report.md; an interrupted count is resumed",
+    )
     havran = commands.add_parser(
-        "havran", help="measure Havran's comparison of octrees (1999) again, ours beside his"
+        "havran", help="repeat Havran's comparison of octrees (1999), and set our counts beside his"
     )
     steps = havran.add_subparsers(dest="step", required=True)
     measuring = add_command(
         steps,
         "measure",
         lambda o: [measure(o.folder, o.program.absolute(), o.scene or sorted(SCENES))],
-        help="count into DIR/counts.csv; resumes what was cut off",
+        help="write our counts to DIR/counts.csv; resumes an interrupted count",
     )
     writing = add_command(
         steps,
@@ -234,7 +244,7 @@ def _add_other_works(commands: Commands) -> None:
         "--scene",
         action="append",
         choices=sorted(SCENES),
-        help="only this scene; may be given several times",
+        help="count only this scene; may be given several times",
     )
     for command in (haines, measuring):
         command(

@@ -46,13 +46,13 @@ def _parser() -> argparse.ArgumentParser:
         *("-o", "--output"),
         type=Path,
         metavar="FILE.md",
-        help="if not given, it is printed; its plots come beside it",
+        help="if not given, the report is printed without plots",
     )
     sampling = add_command(
         commands,
         "sampling",
         lambda o: write_sampling(o.files, o.output),
-        help="draw what beambench sampling SCENE --json printed, beside each other",
+        help="draw the output of beambench sampling SCENE --json, one plot for each file",
     )
     sampling("files", type=Path, nargs="+", metavar="FILE.json")
     sampling("-o", "--output", type=Path, required=True, metavar="DIR")
@@ -64,7 +64,7 @@ def _add_claims(commands: Commands) -> None:
         commands,
         "claims",
         _claims,
-        help="which claims of the thesis hold, by its figures and by ours",
+        help="judge the claims of the thesis by its figures and by ours",
     )
     claims(
         "runs",
@@ -73,7 +73,7 @@ def _add_claims(commands: Commands) -> None:
         metavar="RUN",
         help="folder of a run, of the simulated cluster, or of censuses (scan.json, beams.json)",
     )
-    claims("--cells", action="store_true", help="list every cell, too")
+    claims("--cells", action="store_true", help="also list every cell")
     claims(*("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed")
 
 

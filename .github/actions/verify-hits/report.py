@@ -1,4 +1,4 @@
-"""Writes a summary in Markdown and a badge from what `beambench verify --kit --json` found."""
+"""Writes a summary in Markdown and a badge from the output of `beambench verify --kit --json`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FAILED_SHOWN = 10
 
 
 def families(cases: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Returns a row for each family and query; those that failed come last."""
+    """Returns a row for each family and query; the failed ones come last."""
     rows: dict[tuple[str, str], dict[str, Any]] = {}
     for case in cases:
         key = (case["family"], case["query"])
@@ -23,7 +23,7 @@ def families(cases: list[dict[str, Any]]) -> list[dict[str, Any]]:
         row["right"] += case["passed"]
         for name in COUNTS:
             row[name] += case[name]
-        row["graze"] -= case["leaks"]  # which are misses at edges, too
+        row["graze"] -= case["leaks"]  # leaks are misses at edges, so they also count as grazes
         if row["verdict"] in ("ok", "unsupported") and case["verdict"] != "unsupported":
             row["verdict"] = case["verdict"]
     listed = [{"family": family, "query": query, **row} for (family, query), row in rows.items()]
@@ -73,9 +73,9 @@ def badge(found: dict[str, Any]) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Writes both files."""
+    """Writes the summary and the badge."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("verdict", type=Path, help="what verify --json wrote")
+    parser.add_argument("verdict", type=Path, help="the output of verify --json")
     parser.add_argument("--summary", type=Path, required=True)
     parser.add_argument("--badge", type=Path, required=True)
     arguments = parser.parse_args()

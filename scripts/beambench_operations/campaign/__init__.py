@@ -1,1 +1,1 @@
-"""Long campaigns against the program: random inputs, rays and kills, counted in one record."""
+"""Long campaigns that test the program by random inputs, rays and kills, with one record."""

@@ -24,16 +24,16 @@ from beambench_report.base.files import ROOT, Problem, say
 
 HOME = ROOT / "results/robustness"
 _TARGETS = ROOT / "build/fuzz/bin"
-_LONGEST = 300.0  # seconds of a piece of fuzzing: what Ctrl-C may cost
+_LONGEST = 300.0  # most seconds of a piece of fuzzing, all of which Ctrl-C may lose
 _MEASURE = {"fuzz": "seconds", "rays": "scenes", "kills": "runs"}
-"""The count that is balanced between the subjects of a command, over all pieces of the record."""
+"""The count, over all pieces of the record, that is balanced between the subjects of a command."""
 
 Work = dict[str, Callable[[int | None], Piece]]
 """Functions that make a piece for a subject, with a given seed or the next one."""
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the command line; returns the exit code."""
     parser = ScriptParser("campaign")
     parser.add_argument("command", choices=_MEASURE, nargs="?")
     parser.add_argument("--minutes", type=_number, default=10.0)
@@ -45,7 +45,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--dry-run", action="store_true")
     parser.add_argument("--beambench", type=Path, default=BEAMBENCH, metavar="PROGRAM")
     parser.add_argument("--targets", type=Path, default=_TARGETS, metavar="DIR")
-    interrupted = "interrupted; the pieces that were under way are not counted"
+    interrupted = "interrupted; the pieces in progress are not counted"
     return parser.run(_run, arguments, interrupted)
 
 
@@ -53,14 +53,14 @@ def _number(text: str) -> float:
     with contextlib.suppress(ValueError):
         if 0 <= (number := float(text)) < 1e6:
             return number
-    raise argparse.ArgumentTypeError(f"'{text}' is no number from 0 to a million")
+    raise argparse.ArgumentTypeError(f"'{text}' is not a number from 0 to a million")
 
 
 def _count(text: str) -> int:
     with contextlib.suppress(ValueError):
         if 1 <= (number := int(text)) < 2**31:
             return number
-    raise argparse.ArgumentTypeError(f"'{text}' is no whole number from 1 on")
+    raise argparse.ArgumentTypeError(f"'{text}' is not a whole number of 1 or more")
 
 
 def _run(options: argparse.Namespace) -> int:

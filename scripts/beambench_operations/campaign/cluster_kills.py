@@ -13,14 +13,14 @@ from beambench_thesis.chapter6.record import ENVIRONMENT
 
 PROGRAM = "beambench-cluster"
 _RUNS = 5
-_TIMEOUT = 5  # seconds, of --timeout
+_TIMEOUT = 5  # seconds, for --timeout
 _SIGNALS = (signal.SIGKILL, signal.SIGSTOP)
-_ENDING = 60  # seconds: the same, plus those of mpirun and of a busy machine
+_ENDING = 60  # more seconds, for mpirun and a busy machine
 _WORK = ["balls:n=2", "--shade", "whitted", "--depth", "6", "--resolution", "320x240"]
 
 
 def is_possible(beambench: Path) -> bool:
-    """Is MPI installed, and was the program built?"""
+    """Returns whether MPI is installed and the program was built."""
     return shutil.which("mpirun") is not None and beambench.with_name(PROGRAM).exists()
 
 
@@ -51,7 +51,7 @@ def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Progra
         ended = finished(run, tally)
         whole_picture = picture.exists() and picture.read_bytes() == right.read_bytes()
         if ended.code == 0 and not whole_picture:
-            tally.faults.append("it succeeded, but the picture is another one or missing")
+            tally.faults.append("it succeeded, but the picture is wrong or missing")
         elif picture.exists() and not whole_picture:
             tally.faults.append("it failed and left a wrong picture")
         elif ended.code != 0 and not ended.errors.strip():

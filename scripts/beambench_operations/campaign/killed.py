@@ -1,4 +1,4 @@
-"""Kills: signals at random moments, and the exit codes that they may cause."""
+"""Kills programs by signals at random moments, and judges how they end."""
 
 import json
 import signal
@@ -33,7 +33,7 @@ def write_sweep(folder: Path) -> Path:
 
 @dataclass
 class Tally:
-    """Counts and faults of a piece so far."""
+    """The counts and faults of a piece so far."""
 
     kills: int = 0
     runs: int = 0
@@ -57,7 +57,7 @@ def finished(program: Program, tally: Tally) -> Ended:
 def killed(
     program: Program, random: Random, whole: float, tally: Tally, *, to_all: bool = False
 ) -> Ended:
-    """Sends a signal at some moment of the first `whole` seconds; returns how the program ended."""
+    """Sends a signal at a random time within `whole` seconds; returns how the program ended."""
     number = random.choice(SIGNALS)
     if program.wait(random.uniform(0, whole)) is None:
         program.send(number, to_all=to_all)
@@ -75,5 +75,5 @@ def undisturbed(program: Program, tally: Tally) -> float:
 
 
 def ended_as_killed(ended: Ended) -> bool:
-    """Did the program end by the signal, or properly because of it?"""
+    """Returns whether the program ended by the signal, or properly because of it."""
     return ended.code in (130, 143, *(-number for number in SIGNALS))

@@ -25,7 +25,7 @@ _MOST_KILLS = 12
 
 
 def kill_sweep(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """Kills a sweep. At the end it must have each cell once, as in an undisturbed run."""
+    """Kills and resumes a sweep. At the end it must have each cell once, as if undisturbed."""
     tally = Tally()
     sweep = write_sweep(folder)
     begin = [beambench, "run", sweep, "-o", folder / "undisturbed"]

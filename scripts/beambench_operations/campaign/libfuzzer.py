@@ -1,4 +1,4 @@
-"""Pieces of fuzzing by libFuzzer: a target is fuzzed for some time, then its corpus minimized."""
+"""Fuzzes a target with libFuzzer for some time, then minimizes its corpus."""
 
 import os
 import re
@@ -17,15 +17,15 @@ SOURCES = ROOT / "tests/fuzz"
 _DICTIONARIES = dict.fromkeys(
     ("sweep", "run_log", "manifest", "rays", "hits", "gltf", "mesh_entry"), "json"
 )
-"""The dictionaries of targets that do not have one with their own name."""
+"""Targets without a dictionary named after them, each with the one to use."""
 _LIMITS = ("-max_len=4096", "-timeout=20", "-rss_limit_mb=3000")
 _GO_ON = ("-fork=1", "-ignore_crashes=1", "-ignore_timeouts=1", "-ignore_ooms=1")
 _ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1"}
 _STATUS = re.compile(r"^#(\d+):? .*?cov: (\d+) ft: (\d+) corp: (\d+)", re.MULTILINE)
 _FAULTS = ("crash-*", "timeout-*", "oom-*")
-_REPEATING = 60.0  # seconds for one input
+_REPEATING = 60.0  # most seconds to repeat one input
 _MOST_REPEATED = 100
-"""A target that fails at once leaves thousands of inputs that fail in the same way."""
+"""The most failing inputs that are repeated: a target that always fails leaves thousands."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Target:
         return [folder for folder in folders if folder.is_dir()]
 
     def dictionary(self) -> list[str]:
-        """Returns the option that names its dictionary, if it has one."""
+        """Returns the option that names the target's dictionary, if it has one."""
         file = SOURCES / f"{_DICTIONARIES.get(self.name, self.name)}.dict"
         return [f"-dict={file}"] if file.exists() else []
 
@@ -72,7 +72,7 @@ def fuzz(target: Target, seed: int, seconds: float, record: Record, programs: Pr
         fuzzed = programs.run(command, seconds + 120, scratch, environment)
         executions, coverage = status(fuzzed.errors)
         if not executions:
-            raise Problem(f"{target.program} did not run an input: {fuzzed.last_words()}")
+            raise Problem(f"{target.program} did not run any input: {fuzzed.last_words()}")
         merged = _minimize(target, corpus, scratch, programs, environment)
         coverage["corpus"] = sum(1 for _ in corpus.iterdir())
         findings = list(_findings(target, faults, record, programs, environment))
@@ -92,7 +92,7 @@ def status(log: str) -> tuple[int, dict[str, int]]:
 def _minimize(
     target: Target, corpus: Path, scratch: Path, programs: Programs, environment: dict[str, str]
 ) -> Ended:
-    """Keeps only inputs that add to the coverage; keeps all of them if that fails."""
+    """Keeps only inputs that add to the coverage; keeps all inputs if minimizing fails."""
     fresh = scratch / "fresh"
     fresh.mkdir()
     folders: Sequence[Path] = (fresh, corpus, *target.seeds())

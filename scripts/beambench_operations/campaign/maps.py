@@ -1,4 +1,4 @@
-"""Pieces of fuzzing the reader of Quake 3's maps, which is Python."""
+"""Fuzzes the reader of Quake 3 maps, which is written in Python."""
 
 import sys
 from pathlib import Path
@@ -15,7 +15,7 @@ _FOLDERS = [ROOT / f"tests/fuzz/{kind}/{SUBJECT}" for kind in ("corpus", "regres
 
 
 def fuzz_maps(seed: int, seconds: float, record: Record, programs: Programs) -> Piece:
-    """Mutates maps for some time, and keeps one for each place in the code that fails."""
+    """Mutates maps for some time, and keeps one map for each place in the code that fails."""
     with TemporaryDirectory(prefix="beambench-campaign-") as name:
         faults = Path(name)
         folders = [folder for folder in _FOLDERS if folder.is_dir()]

@@ -20,14 +20,14 @@ from beambench_operations.campaign.rows import cells_of, difference
 from beambench_operations.nightly.home import Home
 
 _KILLS = 4
-_REGRESSED = 1  # tiny nights are noisy
-_WAIT = 0.5  # seconds, for a run whose parent was killed
+_REGRESSED = 1  # an allowed exit code, because tiny nights are noisy
+_WAIT = 0.5  # seconds to wait for a run whose parent was killed
 _IN_PROGRESS = ("a nightly run is in progress", "no run was cut off")
 
 
 def kill_nights(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """Runs an undisturbed night, then kills others until enough were killed and the last one is
-    complete.
+    """Runs an undisturbed night, then kills and resumes nights until there were enough kills and
+    the last night is complete.
     """
     tally = Tally()
     home = folder / "nightly"
@@ -65,7 +65,7 @@ def _fault(home: Path) -> str:
     with closing(sqlite3.connect(home / "history.sqlite")) as history:
         nights = sorted(folder for (folder,) in history.execute("SELECT folder FROM nights"))
     if nights != sorted(_nights(home)):
-        return f"the history has the nights {nights}, but finished are {sorted(_nights(home))}"
+        return f"the history has the nights {nights}, not {sorted(_nights(home))}"
     first, _ = cells_of(home / nights[0] / "results.csv")
     for night in nights:
         cells, damage = cells_of(home / night / "results.csv")

@@ -9,7 +9,7 @@ class Finding:
     """A fault that was found."""
 
     file: str
-    """The file that reproduces it or was left by it, in the folder of findings."""
+    """The file in the folder of findings that reproduces the fault or was left by it."""
     message: str
     command: str
     """The command that repeats it, run at the top of the repository."""
@@ -22,7 +22,7 @@ class Piece:
     command: str
     """`fuzz`, `rays` or `kills`."""
     subject: str
-    """The target, the structure, or what was killed."""
+    """The target, the structure, or the program that was killed."""
     seed: int
     counts: dict[str, int]
     """Executions, or scenes and rays, or kills and runs."""

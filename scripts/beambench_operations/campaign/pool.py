@@ -12,7 +12,7 @@ from beambench_report.base.files import say
 _SILENCE = 30.0  # longest time in seconds without a message
 
 Choose = Callable[[Collection[str]], Task]
-"""The next task, given the subjects that are under way."""
+"""A function that returns the next task, given the subjects in progress."""
 
 
 def do_pieces(

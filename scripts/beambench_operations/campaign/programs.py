@@ -16,12 +16,12 @@ from beambench_report.base.files import ROOT, Problem
 PYTHON = {
     "PYTHONPATH": ":".join(filter(None, (str(ROOT / "scripts"), os.environ.get("PYTHONPATH"))))
 }
-"""An environment in which Python finds the packages of scripts/, even if .venv does not."""
+"""An environment in which Python finds the packages of scripts/, even without .venv."""
 _POLL = 0.005  # seconds
 _PATIENCE = 3.0  # seconds from SIGTERM to SIGKILL
 
 
-class Stopped(Exception):  # noqa: N818 (the user's wish is no error)
+class Stopped(Exception):  # noqa: N818 (a user's wish is not an error)
     """The campaign has ended; pieces in progress are not counted."""
 
 
@@ -37,7 +37,7 @@ class Ended:
     def last_words(self) -> str:
         """Returns the last line of its output, as the reason."""
         lines = (self.errors.strip() or self.output.strip()).splitlines()
-        return lines[-1] if lines else f"it ended with {self.code} and said nothing"
+        return lines[-1] if lines else f"it ended with {self.code} and printed nothing"
 
 
 class Program:
@@ -65,7 +65,7 @@ class Program:
         self._reaping = threading.Lock()
 
     def wait(self, seconds: float = float("inf")) -> Ended | None:
-        """Waits for the program; returns None if it runs longer than that."""
+        """Waits for the program to end; returns None if it runs longer than `seconds`."""
         end = time.monotonic() + seconds
         while (ended := self._reaped()) is None and time.monotonic() < end:
             time.sleep(_POLL)

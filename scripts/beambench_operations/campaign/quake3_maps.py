@@ -1,10 +1,10 @@
-"""Mutates maps of Quake 3 and converts them: only Problem may be raised.
+"""Mutates Quake 3 maps and converts them: only Problem may be raised.
 
 usage: .venv/bin/python -m beambench_operations.campaign.quake3_maps FILE
        .venv/bin/python -m beambench_operations.campaign.quake3_maps SECONDS SEED FAULTS FOLDER...
 
-Converts one file; or, for some time, mutated files of those folders. Writes each that fails in a
-new way to the folder FAULTS, and prints their number.
+Converts one file; or, for some time, mutated files from the folders. Then it writes each file that
+fails in a new way to the folder FAULTS, and prints the number of converted files.
 """
 
 import hashlib
@@ -40,7 +40,7 @@ def read(data: bytes) -> None:
 
 
 def mutated(data: bytes, others: list[bytes], random: Random) -> bytes:
-    """Returns the bytes with some changed, removed, repeated, or taken from another input."""
+    """Returns the data with some bytes changed, removed, repeated, or taken from another input."""
     result = bytearray(data)
     for _ in range(random.choice((1, 1, 2, 4, 8))):
         place = random.randrange(len(result) + 1)
@@ -76,7 +76,7 @@ def fault(data: bytes) -> str:
 
 
 def search(seconds: float, seed: int, faults: Path, inputs: list[bytes]) -> int:
-    """Mutates inputs for some time; returns how many were read."""
+    """Mutates and converts inputs for some time; returns the number of conversions."""
     random = Random(seed)
     end = time.monotonic() + seconds
     places = set()
@@ -97,7 +97,7 @@ def _too_slow(_number: int, _frame: FrameType | None) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code: 1 where a file fails."""
+    """Returns the exit code: 1 if the file fails."""
     signal.signal(signal.SIGALRM, _too_slow)
     if len(arguments) == 1:
         message = fault(Path(arguments[0]).read_bytes())

@@ -1,4 +1,4 @@
-"""Pieces of random rays: the self-test of one structure over new random scenes."""
+"""Traces random rays: runs the self-test of one structure over new random scenes."""
 
 import json
 from pathlib import Path
@@ -10,7 +10,7 @@ from beambench_operations.campaign.record import Record
 from beambench_report.base.files import Problem, output_of
 
 SCENES = 20
-"""The number of random scenes of each of the three checks that make them; built-in hard scenes are
+"""The number of random scenes in each of the three checks that make them; built-in hard scenes are
 added.
 """
 RAYS = 4000
@@ -18,7 +18,7 @@ RAYS = 4000
 CHECKS = ("random scenes", "scene families", "views")
 """The checks that make random scenes, different ones for every seed."""
 FIRST_SEED = 100_000
-"""The first seed, above the seeds of the tests."""
+"""The first seed; it is larger than the seeds of the tests."""
 
 
 def structures(beambench: Path) -> list[str]:
@@ -55,7 +55,7 @@ def trace(beambench: Path, structure: str, seed: int, record: Record, programs: 
 def _kept(
     check: dict, file: Path, title: str, command: list[str | Path], record: Record
 ) -> Finding:
-    """Returns the failure; a wrong hit is minimized first."""
+    """Keeps the minimized case of a failed check if there is one, or else the output."""
     message = f"{check['check']}: {check['failure']}"
     if check["case"]:
         stem = f"{title}-{check['check']}"

@@ -19,7 +19,7 @@ VERSION = 1
 
 
 class Record:
-    """The folder `results/robustness`, or another one."""
+    """The record of all campaigns in a folder, by default `results/robustness`."""
 
     def __init__(self, folder: Path) -> None:
         """Creates nothing until the first piece is added."""
@@ -34,12 +34,12 @@ class Record:
         return self.folder / "corpus" / target
 
     def pieces(self) -> list[dict]:
-        """Returns all pieces, the oldest first. Raises Problem for a file that is not a record."""
+        """Returns all pieces, the oldest first. Raises Problem if the file is not a record."""
         record = read_json(self.file)
         if record is None:
             return []
         if not isinstance(record, dict) or record.get("version") != VERSION:
-            raise Problem(f"{self.file}: it is no record of version {VERSION}; move it away")
+            raise Problem(f"{self.file}: it is not a record of version {VERSION}; move it away")
         return record["pieces"]
 
     def total(self, command: str, subject: str, what: str) -> int:
@@ -58,7 +58,7 @@ class Record:
             write_text(self.file, as_json(pieces))
 
     def keep(self, source: Path, name: str, message: str, command: list[str | Path]) -> Finding:
-        """Copies the files of a finding; in its command, the copy replaces `source`."""
+        """Copies the files of a finding; in the finding's command, the copy replaces `source`."""
         self.findings.mkdir(parents=True, exist_ok=True)
         kept = self.findings / re.sub(r"[^A-Za-z0-9._=-]", "-", name)
         if source.is_dir():
@@ -76,7 +76,7 @@ def as_json(pieces: list[dict]) -> str:
 
 
 def _shown(word: str | Path) -> str:
-    """Returns a path below the repository relative to its top."""
+    """Returns a path below the repository's top relative to it."""
     path = Path(word)
     return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(word)
 

@@ -1,4 +1,4 @@
-"""The record as a table: Markdown for people, CSV for programs."""
+"""Writes the record as a table: Markdown for people, CSV for programs."""
 
 from pathlib import Path
 
@@ -18,12 +18,12 @@ _INTRODUCTION = """\
 
 <!-- Written by `scripts/campaign --report`. -->
 
-Inputs, rays and kills at random, as `scripts/campaign` makes them; each row is the sum of the
-pieces of one subject. `fuzz`: readers, by mutated inputs under the address and undefined-behavior
-sanitizers (`bsp`: by a loop in Python); edges and features are libFuzzer's of the last piece.
-`rays`: the self-test of a structure over random scenes and the scenes that are made to be hard, by
-single rays, images, and batches with pencils, from cameras anywhere.
-`kills`: a sweep, nightly runs and the cluster program, by signals at random moments.
+Random inputs, rays and kills, as `scripts/campaign` makes them; each row is the sum of the pieces
+of one subject. `fuzz` gives readers mutated inputs, under the address and undefined-behavior
+sanitizers (`bsp`: in a loop in Python); edges and features are those that libFuzzer reported for
+the last piece. `rays` runs the self-test of a structure over random scenes and over scenes that
+are made to be hard, with single rays, images, and batches with pencils, from cameras anywhere.
+`kills` kills a sweep, nightly runs and the cluster program by signals at random moments.
 """
 
 
@@ -46,7 +46,7 @@ def write_report(pieces: list[dict], folder: Path) -> list[Path]:
 def merged(pieces: list[dict]) -> list[dict]:
     """Merges pieces of one subject, commit and machine, except those with findings.
 
-    The published record does not list the time of each of thousands of pieces.
+    Otherwise, the published record would list thousands of pieces.
     """
     groups: dict[tuple, dict] = {}
     for number, piece in enumerate(pieces):

@@ -1,4 +1,4 @@
-"""Compares two runs of one sweep without their times."""
+"""Compares two runs of one sweep, except their times."""
 
 from pathlib import Path
 
@@ -24,7 +24,7 @@ def difference(undisturbed: pd.DataFrame, disturbed: pd.DataFrame) -> str:
     """Returns the difference as a sentence; empty if there is none."""
     for cells, others, what in (
         (undisturbed, disturbed, "is missing"),
-        (disturbed, undisturbed, "is too much"),
+        (disturbed, undisturbed, "should not exist"),
     ):
         if len(left := cells.index.difference(others.index)):
             return f"the cell {'/'.join(left[0])} {what}"

@@ -13,12 +13,12 @@ from beambench_operations.history.store import Alarm, History
 from beambench_report.base.records import FAULTLESS_VERDICTS
 
 SHARE = 0.001
-"""A relative increase of a counter above this is a regression."""
+"""The relative increase of a counter above which it is a regression."""
 
 
 @dataclass(frozen=True)
 class Increase:
-    """One counter of one cell."""
+    """An increase of one counter of one cell."""
 
     cell: int
     counter: str
@@ -32,13 +32,13 @@ class Increase:
 
 
 def find_increases(nights: Nights) -> list[Increase]:
-    """Returns the counters that are higher in the last night than in any since the last report."""
+    """Returns the counters above their minimum over the earlier nights since their last report."""
     if len(nights.nights) < 2:
         return []
     found = []
     counters = pd.DataFrame.from_dict(nights.counters, orient="index", dtype=float)
     for name in sorted(counters):
-        # NaN where it was not counted; -1 cannot occur as a count.
+        # NaN where nothing was counted: -1 is not the number of a set of counters.
         *earlier, after = (
             counters[name].reindex(nights.works.ravel()).to_numpy().reshape(nights.works.shape)
         )
@@ -56,7 +56,7 @@ def find_increases(nights: Nights) -> list[Increase]:
 
 
 NIGHTS = 120
-"""How many nights back to look for a counter's minimum and for a step."""
+"""The number of nights in which a counter's minimum and a step are searched."""
 
 _ROOM = 3
 _MANY = 5
@@ -138,8 +138,8 @@ def doubt(alarms: Iterable[Alarm], series: int) -> str:
     if slower < _MANY or slower * 2 < series:
         return ""
     return (
-        f"{slower} of {series} series got slower at once: more likely Embree, by which they are "
-        "measured, got faster, or the machine is another one"
+        f"{slower} of {series} series got slower at once: more likely, Embree, to which they are "
+        "compared, got faster, or the machine changed"
     )
 
 

@@ -17,7 +17,7 @@ from beambench_report.base.records import FAULTLESS_VERDICTS, Run, in_blocks, si
 
 Key = tuple[str, str, str, str, int, int, int, str]
 
-# Contenders of one view traced the same rays; ratios are only formed among them.
+# Contenders of one view traced the same rays; ratios are computed only among them.
 VIEW = ("scene", "camera", "width", "height", "samples", "ray_kind")
 
 
@@ -33,7 +33,7 @@ class Figure:
     reference: Key | None
     ratio: float | None
     error: float | None
-    """Standard error of the ratio's logarithm; None below two blocks."""
+    """The standard error of the ratio's logarithm; None with fewer than two blocks."""
 
 
 @dataclass(frozen=True)
@@ -45,15 +45,18 @@ class Night:
     commit: str
     dirty: bool
     machine_id: str
-    """The machine, with the processor if the manifest names it: two machines are never mixed."""
+    """The machine, with the processor if the manifest names it.
+
+    Only nights of one machine are compared.
+    """
     csv_sha256: str
     in_blocks: bool
-    """Was it measured in blocks? Other nights are shown but not compared."""
+    """Whether the night was measured in blocks. Other nights are shown but not compared."""
     figures: tuple[Figure, ...]
 
     @property
     def wrong(self) -> int:
-        """Number of cells with wrong hits."""
+        """The number of cells with wrong hits."""
         return sum(figure.verdict not in FAULTLESS_VERDICTS for figure in self.figures)
 
 
@@ -93,9 +96,9 @@ def inputs_of(rows: pd.DataFrame) -> list[str]:
 
 
 def counters_of(rows: pd.DataFrame) -> list[str]:
-    """Returns the counts of work of each row as JSON, sorted by name.
+    """Returns the work counters of each row as JSON, sorted by name.
 
-    Some structures also add times per ray.
+    Times per ray, which some structures add, are left out.
     """
     names = sorted(rows.filter(regex=f"(?<!_ns){COUNTER_SUFFIX}$"))
     return [
@@ -124,7 +127,7 @@ def views_of(rows: pd.DataFrame) -> list[tuple]:
 
 
 def comparable(rows: pd.DataFrame) -> list[tuple]:
-    """Returns the view and the machine of each row, shared by rows with comparable times."""
+    """Returns the view and the machine of each row; rows with comparable times share both."""
     return list(zip(views_of(rows), rows["machine_id"], strict=True))
 
 
@@ -144,7 +147,7 @@ def _ratios(run: Run, references: dict[tuple, int]) -> list[Ratio | None]:
 
 
 def is_timed(rows: pd.DataFrame) -> pd.Series:
-    """Has each row a time that can be compared?"""
+    """Returns whether each row has a time that can be compared."""
     return rows["timed"] & (rows["total_ms"] > 0)
 
 

@@ -35,12 +35,12 @@ class Nights:
     errors: np.ndarray
     """Standard errors of the logarithms of the ratios, from the blocks of each night."""
     works: np.ndarray
-    """Number of each cell's set of counters in each night; -1 where its inputs differ."""
+    """The number of each cell's set of counters in each night; -1 where the inputs differ."""
     counters: dict[int, dict[str, float]]
 
     @cached_property
     def pools(self) -> pd.DataFrame:
-        """The series that are tested: a contender over a scene, its resolutions pooled."""
+        """The series that are tested: a contender over a scene, with its resolutions pooled."""
         names = [name for name in IDENTITY if name not in ("width", "height")]
         tested = self.cells[~self.cells["is_reference"] & (self.cells["verdict"] != BASELINE)]
         groups = tested.groupby(names, sort=False)
@@ -87,10 +87,10 @@ def nan_mean(values: np.ndarray) -> np.ndarray:
 def read_nights(
     history: History, last: int | None = None, most: int | None = None, *, compared: bool = False
 ) -> Nights:
-    """Returns the nights up to the one of number `last` (default: the newest), on its machine.
+    """Returns the nights up to the night `last` (default: the newest night), on its machine.
 
-    Of these, it returns the newest `most` (default: all). With `compared`, the earlier nights are
-    those it can be compared with: if it was measured in blocks, only such nights.
+    Of these, it returns the newest `most` (default: all). With `compared`, an earlier night is
+    included only if both it and the last night were measured in blocks.
     """
     tonight = _tonight(history, last)
     names = "id run_id time_utc commit_hash dirty folder cells wrong in_blocks".split()
@@ -107,7 +107,7 @@ def read_nights(
     cells = _cells_of(history, tonight)
     shape = (len(nights), len(cells))
     ratios, errors, works = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape, -1)
-    # One query: a separate look-up for each night would take longer than this.
+    # One query is faster than a separate look-up for each night.
     figures = history.read(
         "SELECT f.night, f.cell, f.work, f.ratio, f.error, f.reference IS t.reference "
         "FROM figures f JOIN figures t ON t.cell = f.cell AND t.input = f.input "

@@ -1,8 +1,8 @@
-"""Did a series of nights step up, and stay there?
+"""Finds series of nights that stepped up and stayed there.
 
 The series are logarithms of ratios to a contender of the same run, so that a shift of 0.05 is 5%.
 A step is reported when
-- ruptures places a change with at least `side` nights before and after it (binary segmentation by
+- ruptures finds a change with at least `side` nights before and after it (binary segmentation by
   the sum of absolute deviations, which outliers do not sway; Truong, Oudre and Vayatis, 2020);
 - the medians before and after differ by more than chance explains: the shift over its standard
   error against Student's t, with Holm's correction over all series of the night;
@@ -29,18 +29,18 @@ class Rule:
     """The conditions for an alarm."""
 
     side: int = 12
-    """Least number of nights on each side of a step."""
+    """The least number of nights on each side of a step."""
     window: int = 60
     """The number of recent nights that are examined."""
     level: float = 0.01
-    """Chance that a night of pure noise raises any alarm, over all series together."""
+    """The chance that a night of pure noise raises any alarm, over all series together."""
     tolerance: float = 0.01
     """A shift whose interval reaches below this is not a regression."""
     inflation: float = 1.9
-    """The factor on the standard error.
+    """The factor by which the standard error is multiplied, found by calibration.
 
-    A change found by searching lies where the noise favors it, and each night is examined again on
-    the next. Found by calibration.
+    It is above 1 because a change found by searching lies where the noise favors it, and because
+    each night is examined again in the nights that follow.
     """
 
 
@@ -58,7 +58,7 @@ class Step:
     low: float
     high: float
     p_value: float
-    """Without Holm's correction."""
+    """The p-value without Holm's correction."""
 
 
 Tested = TypeVar("Tested")
@@ -74,7 +74,7 @@ def find_steps(
 ) -> list[Step]:
     """Returns the series (columns) that stepped up, as seen after the last night (row).
 
-    Nights before `starts` are left out: their steps were reported already.
+    Nights before `starts` are left out, because their steps were reported already.
     """
     rule = rule or Rule()
     count = values.shape[1]
@@ -95,7 +95,7 @@ def find_steps(
 
 
 def _may_have_risen(recent: np.ndarray, rule: Rule) -> np.ndarray:
-    """Are the last nights clearly slower than those before? If not, no search is needed."""
+    """Returns whether each series' last nights are clearly slower; if not, no search is needed."""
     side = rule.side
     if len(recent) < 2 * side:
         return np.zeros(recent.shape[1], bool)

@@ -1,14 +1,14 @@
-"""The history of nightly runs in one SQLite file, rebuilt from the CSVs of its runs at any time.
+"""The history of nightly runs in one SQLite file, which can be rebuilt from the CSVs of its runs.
 
-nights      a row for each run; `folder` is where its results.csv lies, beside the history's file
+nights      a row for each run; `folder` contains its results.csv, relative to the history's folder
 cells       what was measured: the columns that identify a row of results.csv
 inputs      hashes of scene and rays; nights with other hashes are not comparable
-work        counters per ray as JSON, sorted by name; they repeat from night to night, so kept once
-figures     a row for each cell of each night; NULL is not measured, or not verified
+work        counters per ray as JSON, sorted by name; stored once, because they repeat nightly
+figures     a row for each cell of each night; NULL means not measured, or not verified
 alarms      the alarms of each night, stored so that no later night repeats them
 
 `machine_id` of a night is the column's, followed by the processor if the run's manifest names it: a
-series only contains nights of one machine.
+series contains only nights of one machine.
 
 `ratio` is the total (build and trace) relative to the contender `reference` of the same run and
 rays, the geometric mean over the blocks; `error` is the standard error of its logarithm. A night
@@ -102,7 +102,7 @@ class Alarm:
 
 
 FindAlarms = Callable[["History", int], list[Alarm]]
-"""Returns the alarms of the night with a given number."""
+"""A function that returns the alarms of the night with a given number."""
 
 
 class History:
@@ -130,7 +130,7 @@ class History:
         self._base.close()
 
     def add(self, night: Night, folder: Path, find_alarms: FindAlarms | None = None) -> int | None:
-        """Adds a night with its alarms; returns its number, or None if it is there already."""
+        """Adds a night with its alarms; returns its number, or None if it exists already."""
         if self.number_of(night.run_id) is not None:
             return None
         with self.change():
@@ -195,14 +195,13 @@ class History:
             )
             return
         if application != APPLICATION_ID:
-            raise Problem(f"{self.path}: is an SQLite file, but no history of nightly runs")
-        if version == 1:  # its nights are from before blocks
+            raise Problem(f"{self.path}: is an SQLite file, but not a history of nightly runs")
+        if version == 1:  # its nights were not measured in blocks
             self._base.executescript(f"BEGIN; {_FROM_VERSION_1} PRAGMA user_version = 2; COMMIT;")
             return
         if version != SCHEMA_VERSION:
             raise Problem(
-                f"{self.path}: has schema version {version}, and this reads {SCHEMA_VERSION}; "
-                f"{_REMEDY}"
+                f"{self.path}: has schema version {version}, not {SCHEMA_VERSION}; {_REMEDY}"
             )
 
     @contextmanager

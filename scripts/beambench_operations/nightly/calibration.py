@@ -1,4 +1,4 @@
-"""Finds how often pure noise raises a false alarm, and which slowdowns are found.
+"""Measures how often pure noise raises a false alarm, and which slowdowns are found.
 
 Noise is taken from repeated runs of one sweep by one program: groups of consecutive runs are
 concatenated (block bootstrap), for all contenders of a scene together, since they share a
@@ -34,7 +34,7 @@ _SEED = 1999
 
 @dataclass(frozen=True)
 class Noise:
-    """Night-to-night noise with no code changes: an array for each scene, a row for each night."""
+    """Night-to-night noise without code changes: an array per scene, with a row for each night."""
 
     scenes: tuple[np.ndarray, ...]
     nights: int
@@ -79,7 +79,7 @@ class Calibration:
     series: int
     alarms: int
     alarms_low: float
-    """Returns the 95% interval of the number of alarms, treating alarms as independent."""
+    """The 95% interval of the number of alarms, treating alarms as independent."""
     alarms_high: float
     noise: float
     noise_nights: int
@@ -89,11 +89,11 @@ class Calibration:
 
     @property
     def smallest_found(self) -> float | None:
-        """Returns the smallest slowdown whose power is surely at least 90%, by its interval."""
+        """Returns the smallest slowdown for which the interval of the power is above 90%."""
         return min((one.slowdown for one in self.power if one.low >= 0.9), default=None)
 
     def as_json(self) -> str:
-        """Returns the result as JSON-compatible data."""
+        """Returns the result as JSON."""
         document = {**asdict(self), "smallest_slowdown_with_90_percent_power": self.smallest_found}
         return json.dumps(document, indent=2) + "\n"
 
@@ -109,13 +109,13 @@ class Calibration:
             f"together ({self._in_100_nights(self.alarms)} in 100 nights, 95% confidence interval "
             f"{self._in_100_nights(self.alarms_low)} to {self._in_100_nights(self.alarms_high)}); "
             f"the noise was drawn from {self.noise_nights} nights, {100 * self.noise:.2g}% "
-            f"(standard deviation of a usual series){by_blocks}."
+            f"(standard deviation of a typical series){by_blocks}."
         ]
         lines += map(str, self.power)
         smallest = self.smallest_found
         named = f"{smallest:.1%}" if smallest is not None else "none of these"
         lines.append(
-            "The smallest of these that is found with 90% power, by the low end of the interval: "
+            "The smallest of these slowdowns with a power of 90% at the low end of the interval: "
             f"{named}."
         )
         return "\n".join(lines)
@@ -126,12 +126,12 @@ class Calibration:
 
 @dataclass(frozen=True)
 class Effort:
-    """The number of nights within which a slowdown should be found."""
+    """The limits of the trials that measure the power."""
 
     precision: float = 0.03
     """Trials stop when no 95% interval of a power is wider than this to either side."""
     trials: int = 1200
-    """The most trials: this precision needs 1,067 where the power is one half."""
+    """The most trials: the default precision needs 1,067 where the power is one half."""
     seconds: float = 3600.0
     """The time limit; when it is reached, the intervals stay as wide as they are."""
 
@@ -140,7 +140,7 @@ Report = Callable[[str], None]
 
 
 def noise_of(nights: Nights) -> Noise:
-    """Returns the noise of the nights of a history without any change."""
+    """Returns the noise in the nights of a history during which nothing changed."""
     pooled = nights.pooled()
     whole = np.isfinite(pooled).all(axis=1)
     scenes = nights.pools["scene"].to_numpy()
@@ -151,7 +151,7 @@ def noise_of(nights: Nights) -> Noise:
 
 
 def has_enough(noise: Noise) -> bool:
-    """Are there enough nights to draw from?"""
+    """Returns whether there are enough nights to draw from."""
     return noise.nights >= _LEAST_NIGHTS and bool(noise.scenes)
 
 
@@ -167,8 +167,8 @@ def synthetic_nights(noise: Noise, nights: int, random: np.random.Generator) -> 
 
 
 def count_alarms(values: np.ndarray, rule: Rule) -> list[tuple[int, int, int]]:
-    """Yields night, series and night of the change for every alarm, as successive nights raise
-    them.
+    """Returns the night, the series and the night of the change of every alarm that successive
+    nights raise.
     """
     starts = np.zeros(values.shape[1], int)
     alarms = []
@@ -214,7 +214,7 @@ def _powers(
     random: np.random.Generator,
     report: Report | None,
 ) -> tuple[Power, ...]:
-    """Measures the power.
+    """Measures the power for each slowdown.
 
     Each trial plants every slowdown into the same noise, so chance does not reorder them.
     """
@@ -233,7 +233,7 @@ def _powers(
         if report and monotonic() - reported > _REPORT_SECONDS:
             reported = monotonic()
             report(
-                f"{trials} trials, {reported - begun:.0f} s: powers are known to "
+                f"{trials} trials, {reported - begun:.0f} s: powers are known to within "
                 f"{100 * widest:.1f} points, {100 * effort.precision:g} wanted"
             )
         if widest <= effort.precision:
@@ -265,7 +265,7 @@ def _nights_until_found(
     return 0
 
 
-_BLOCKS = 8  # of a night, if its sweep does not say
+_BLOCKS = 8  # the blocks that are drawn for a night
 _NIGHTS = 200
 
 
@@ -287,7 +287,7 @@ def noise_of_samples(folders: Iterable[Path]) -> Noise:
 
 
 def _drawn(folder: Path, random: np.random.Generator) -> Iterator[Noise]:
-    """Returns the noise of a run's scenes: means over the same blocks for all of its cells."""
+    """Yields the noise of a run's scenes, if any; all cells use the same drawn blocks."""
     rows = read_run(folder).rows
     bases, totals = references_of(rows), read_analysis(folder).block_totals
     names = [name_of(row) for row in rows.to_dict("records")]

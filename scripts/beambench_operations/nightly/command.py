@@ -29,17 +29,17 @@ def add_nightly_command(commands: Commands) -> None:
     parts = parser.add_subparsers(dest="part", required=True)
     run = add_command(parts, "run", _run, help="measure and record a night, write the site")
     run("--sweep", type=Path, default=_SWEEP, metavar="FILE")
-    run("--resume", action="store_true", help="resume what was cut off")
+    run("--resume", action="store_true", help="resume the interrupted run")
     run("--dry-run", action="store_true", help="print what would be done")
     add = add_command(
-        parts, "add", _alone(_add), help="record and report a run that was measured otherwise"
+        parts, "add", _alone(_add), help="record and report a run that was measured by other means"
     )
     add("run", type=Path, metavar="RUN")
     rebuilding = add_command(
         parts,
         "rebuild",
         _alone(lambda o: f"{o.home.history}: {rebuild_history(o.home)} nights\n"),
-        help="make the history anew from the CSVs",
+        help="rebuild the history from the CSVs",
     )
     page = add_command(
         parts,
@@ -57,7 +57,7 @@ def add_nightly_command(commands: Commands) -> None:
         parts,
         "calibrate",
         _calibrate,
-        help="count the false alarms of pure noise and find the least slowdown seen",
+        help="count the false alarms of pure noise and find the smallest slowdown that is found",
     )
     for command in (run, add, rebuilding, page, pruning, calibration):
         command("--home", type=_home, default=_home(HOME), metavar="DIR")
@@ -83,14 +83,14 @@ def add_nightly_command(commands: Commands) -> None:
             float,
             "half the width that the 95%% confidence intervals of the powers should have",
         ),
-        ("trials", int, "at most"),
-        ("seconds", float, "at most, for the trials"),
+        ("trials", int, "the most trials"),
+        ("seconds", float, "the most seconds for the trials"),
     ):
         calibration(
             f"--{name}",
             type=kind,
             default=getattr(usual, name),
-            help=f"{words}; %(default)s if not given",
+            help=f"{words} (default: %(default)s)",
         )
     calibration(
         "--slowdowns",
@@ -98,7 +98,7 @@ def add_nightly_command(commands: Commands) -> None:
         nargs="+",
         default=[0.01, 0.015, 0.02, 0.03, 0.05],
         metavar="PART",
-        help="what is planted, 0.05 being 5%%",
+        help="the slowdowns that are planted; 0.05 is 5%%",
     )
     calibration("-o", "--output", type=Path, metavar="FILE.json")
 
@@ -108,7 +108,7 @@ def _home(folder: str | Path) -> Home:
 
 
 def _alone(work: Callable[[Options], Result]) -> Callable[[Options], Result]:
-    """Yields the operations for checked options, while no other process uses the home."""
+    """Returns the command with its options checked and the home locked against other processes."""
 
     def checked(options: Options) -> Result:
         _check(options)

@@ -7,10 +7,11 @@ order is A B, B A, A B, ..., so that each is first equally often, and neither a 
 machine nor the order within a turn favors one of them.
 
 The cells of a turn are not independent: they share a process and a moment of the machine. (The
-same program against itself, twice 12 turns during builds: a mean correlation of 0.28 and 0.23
-between cells, and no effect of the order within a turn, -1.9% and +0.5%.) So most or all ratios may
-lie on one side of 1 by chance, and several intervals may exclude 1 together. Therefore cells are
-tested together, by Holm's correction, and the ratio of all of them is formed turn by turn.
+same program was compared with itself twice, in 12 turns during builds: the mean correlation
+between cells was 0.28 and 0.23; the order within a turn had no effect, -1.9% and +0.5%.) So most
+or all ratios may lie on one side of 1 by chance, and several intervals may exclude 1 together.
+Therefore cells are tested together, by Holm's correction, and the ratio of all cells is computed
+turn by turn.
 
 TOLERANCE is smaller than the margin of 3% within which two contenders of one run rank as equal.
 Within a run, nobody needs an order of nearly equal contenders; here, one program is the other's
@@ -43,8 +44,8 @@ from beambench_report.base.records import (
 LEVEL = 0.01
 TOLERANCE = 0.01
 _GONE = {
-    NO_RAYS: "there are no such rays any more",
-    UNSUPPORTED: "the structure does not support this any more",
+    NO_RAYS: "there are no longer such rays",
+    UNSUPPORTED: "the structure no longer supports this",
 }
 LEAST_TURNS = 6
 """With fewer pairs, Student's t is so wide that only large slowdowns are found."""
@@ -63,7 +64,7 @@ class Comparison:
 
     @property
     def is_decided(self) -> bool:
-        """Does the interval rule out that B is slower by more than TOLERANCE?"""
+        """Whether the interval rules out that B is slower by more than TOLERANCE."""
         return self.ratio.high <= 1 + TOLERANCE
 
 
@@ -73,7 +74,7 @@ class Outcome:
 
     cells: list[Comparison]
     slower: list[Comparison]
-    """Cells slower by more than chance and TOLERANCE explain, corrected over all cells."""
+    """The cells slower by more than chance and TOLERANCE explain, corrected over all cells."""
     sentences: list[str]
     """Work counters and verdicts that got worse."""
     together: Ratio
@@ -81,7 +82,7 @@ class Outcome:
 
     @property
     def is_regression(self) -> bool:
-        """Is B worse?"""
+        """Whether B is worse."""
         return bool(self.slower or self.sentences)
 
     def table(self) -> str:
@@ -116,7 +117,7 @@ class Outcome:
         return text
 
     def _undecided(self) -> str:
-        """Returns which slowdowns the turns were too few, or the machine too noisy, to rule out."""
+        """Describes the slowdowns that were not ruled out, for lack of turns or due to noise."""
         open_cells = [cell for cell in self.cells if not cell.is_decided]
         if not open_cells:
             return ""
@@ -147,7 +148,7 @@ def measure_in_turns(
         )
     folders: tuple[list[Path], list[Path]] = ([], [])
     for turn in range(turns):
-        order = (0, 1) if turn % 2 == 0 else (1, 0)  # both warm up the machine equally often
+        order = (0, 1) if turn % 2 == 0 else (1, 0)  # each warms up the machine equally often
         for which in order:
             folder = directory / f"{'ab'[which]}-{turn + 1:02d}"
             if not (folder / "results.csv").exists():
@@ -159,19 +160,19 @@ def measure_in_turns(
 
 
 def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
-    """Pairs the runs of A and B by turns."""
+    """Compares the runs of A and B, paired by turns."""
     if len(first) != len(second) or len(first) < LEAST_TURNS:
         raise Problem(
-            "a comparison needs as many runs of one as of the other, "
-            f"{LEAST_TURNS} or more of each; these are {len(first)} and {len(second)}"
+            f"a comparison needs equal numbers of runs of both programs, {LEAST_TURNS} or more of "
+            f"each, not {len(first)} and {len(second)}"
         )
     times_a, rows_a = _table(first)
     times_b, rows_b = _table(second)
     if in_blocks(rows_a) != in_blocks(rows_b):
         old = first if in_blocks(rows_b) else second
         raise Problem(
-            f"{old[-1]}: was measured by a program from before blocks, whose times are medians; "
-            "compare it with another of these, or two programs that measure in blocks"
+            f"{old[-1]}: was measured by a program that does not measure in blocks; compare "
+            "two programs that do, or two that do not"
         )
     titles = cell_titles(rows_b)
     baselines = set(keys_of(rows_b[rows_b["verdict"] == BASELINE]))
@@ -205,7 +206,7 @@ def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[int, Ratio | None]:
-    """Returns the number of turns with both times, and the ratio of these, paired by turns."""
+    """Returns the number of turns with both times, and the ratio of the times, paired by turns."""
     known = times_b.notna() & times_a.notna()
     ratio = block_ratio(times_b[known].to_dict(), times_a[known].to_dict())
     return int(known.sum()), ratio

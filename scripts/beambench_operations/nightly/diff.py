@@ -60,7 +60,7 @@ class Difference:
 
     what: str
     warning: str
-    """Why times are ratios; empty if both files are of one machine, and both or neither in blocks.
+    """Reasons for care: two machines, or only one file measured in blocks; may be empty.
     """
     pairs: list[Pair]
     only_a: int
@@ -76,7 +76,7 @@ class Difference:
             mean = f"{overall.value:.3f}{_interval(overall)}"
             lines += ["", f"{structure}: {mean} over {len(own)} cells"]
             for pair in own:
-                note = "" if pair.same_input else "  (other rays or scene)"
+                note = "" if pair.same_input else "  (different rays or scene)"
                 lines.append(
                     f"  {pair.ratio.value:8.3f}{_interval(pair.ratio)}  {pair.title}{note}"
                 )
@@ -112,12 +112,12 @@ def diff(first: Path, second: Path, *, relative: bool | None = None) -> Differen
         relative = True
         warning = (
             f"WARNING: two machines. A is of machine {file_a.machine}, B of {file_b.machine}. "
-            "Their milliseconds cannot be compared; shown are ratios to a contender of both files."
+            "Their milliseconds cannot be compared; ratios to a contender of both files are shown."
         )
     if in_blocks(file_a.rows) != in_blocks(file_b.rows):
         warning = (
-            f"{warning}\nWARNING: one file is from before blocks. Its times are medians of one "
-            "process, and longer than the fastest of each block for that reason alone."
+            f"{warning}\nWARNING: one file was not measured in blocks. Its times are medians "
+            "of one process, which are longer than those of blocks for that reason alone."
         ).lstrip()
     reference = _reference(file_a.rows, file_b.rows) if relative else None
     known_a, known_b = _figures(file_a, reference), _figures(file_b, reference)
@@ -143,7 +143,7 @@ def diff(first: Path, second: Path, *, relative: bool | None = None) -> Differen
 
 
 def _read(path: Path) -> _File:
-    """Reads a CSV of any name, or the one in a folder."""
+    """Reads a CSV with any name, or the one in a folder."""
     if path.is_dir() or path.name == "results.csv":
         folder = path if path.is_dir() else path.parent
         rows = read_run(folder).rows

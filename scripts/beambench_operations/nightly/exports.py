@@ -1,4 +1,4 @@
-"""The figures of a run in the formats of other people's tools.
+"""Exports the figures of a run in the formats of other tools.
 
 customBiggerIsBetter: https://github.com/benchmark-action/github-action-benchmark
 Google Benchmark: https://github.com/google/benchmark/blob/main/docs/tools.md (compare.py)
@@ -50,7 +50,7 @@ def google_benchmark(run: Run) -> str:
     """Returns the repetitions, as beambench wrote them for Google Benchmark's compare.py."""
     path = run.directory / _BY_BEAMBENCH
     if not path.is_file():
-        raise Problem(f"{path}: is not there; write it: beambench analyze --write {run.directory}")
+        raise Problem(f"{path}: is missing; write it: beambench analyze --write {run.directory}")
     return path.read_text("utf-8")
 
 

@@ -42,7 +42,7 @@ def only_one(path: Path) -> Iterator[int]:
 HOME = ROOT / "results/runs/nightly"
 
 KEEP_SAMPLES = 30
-"""How many runs keep their raw samples.
+"""The number of runs that keep their raw samples.
 
 CSVs, manifests, sweeps and mismatch pictures always stay.
 """
@@ -55,7 +55,7 @@ class Home:
         """Names the files, which need not exist yet."""
         self.folder = folder
         self.history = folder / "history.sqlite"
-        self.lock = folder / "nightly.lock"  # while a run is in progress
+        self.lock = folder / "nightly.lock"  # held while a run is in progress
         self.site = folder / "site"  # over all nights
         self.page = self.site / "index.html"
 
@@ -75,7 +75,7 @@ def adopt(home: Home, run: Path, run_id: str) -> Path:
         return run
     target = home.folder / re.sub(r"[^A-Za-z0-9._-]", "-", run_id)
     if not target.name[:1].isdigit():
-        raise Problem(f"{run}: its run_id '{run_id}' does not begin with a time, as runs' do")
+        raise Problem(f"{run}: its run_id '{run_id}' does not begin with a time, as it must")
     if not target.exists():
         home.folder.mkdir(parents=True, exist_ok=True)
         pending = target.with_name(f".pending-{target.name}")
@@ -85,7 +85,7 @@ def adopt(home: Home, run: Path, run_id: str) -> Path:
 
 
 def is_finished(run: Path) -> bool:
-    """Is the run finished?"""
+    """Returns whether the run is finished."""
     manifest = read_json(run / "manifest.json")
     ended = isinstance(manifest, dict) and bool(manifest.get("finished_utc"))
     return ended and (run / "results.csv").exists()
@@ -100,7 +100,7 @@ def abandon(run: Path) -> Path:
 
 
 def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
-    """Deletes raw samples of old runs, and abandoned runs before the newest `keep`.
+    """Deletes the raw samples of all but the newest `keep` runs, and older abandoned runs.
 
     A run with wrong cells keeps its log, which contains the examples.
     """

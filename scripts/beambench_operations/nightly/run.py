@@ -1,4 +1,4 @@
-"""One night: measure, record, test for regressions, report."""
+"""Runs one night: measures, records, tests for regressions, and reports."""
 
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -29,7 +29,7 @@ def run_night(options: Options, lock: int) -> int:
     command = [str(part) for part in (options.beambench, "run", *arguments)]
     code = run_in_foreground(command, pass_fds=(lock,))
     if code in INTERRUPTED:
-        say("interrupted; resume with: scripts/nightly --resume (or it is abandoned next time)")
+        say("interrupted; resume with: scripts/nightly --resume (or the next run abandons it)")
         return 130
     if code not in (0, 1) or not is_finished(folder):
         raise Problem(f"{folder}: the sweep could not be run (see above); nothing was recorded")
@@ -77,7 +77,7 @@ def catch_up(home: Home) -> None:
 
 
 def rebuild_history(home: Home) -> int:
-    """Makes the history from the CSVs; returns how many nights it has."""
+    """Rebuilds the history from the CSVs; returns its number of nights."""
     return rebuild(home.history, home.finished(), find_alarms)
 
 

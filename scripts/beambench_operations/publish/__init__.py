@@ -1,1 +1,1 @@
-"""Making results/published: the runs, and the texts from their committed rows."""
+"""Makes results/published: the runs, and the texts from their committed rows."""

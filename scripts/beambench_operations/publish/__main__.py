@@ -23,7 +23,7 @@ _ASIDE = ROOT / "results/runs/publish"
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the command line; returns the exit code."""
     parser = ScriptParser("publish")
     parser.add_argument("--only", nargs="+", default=[], metavar="FOLDER")
     parser.add_argument("--plan", "--dry-run", action="store_true")
@@ -38,7 +38,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--aside", type=Path, default=_ASIDE, metavar="DIR")
     parser.add_argument("--published", type=Path, default=PUBLISHED, metavar="DIR")
     parser.add_argument("--beambench", type=Path, default=BEAMBENCH, metavar="PROGRAM")
-    interrupted = "interrupted; the same command goes on from here on this machine"
+    interrupted = "interrupted; on this machine, the same command continues from here"
     return parser.run(_run, arguments, interrupted)
 
 

@@ -2,7 +2,7 @@
 
 A template FOLDER/README.md.j2 makes FOLDER/README.md: it contains the sentences, with an expression
 for each figure. Its variables are computed by `figures/FOLDER.py`. The template of the page of
-findings uses the figures of every folder, by the folder's name with _ for -.
+findings uses the figures of every folder, under the folder's name with _ instead of -.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def write_documents(published: Path = PUBLISHED) -> list[Path]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A line of a text that does not follow from its rows."""
+    """A line of a published text that differs from the text computed from its rows."""
 
     file: Path
     line: int
@@ -67,13 +67,13 @@ class Difference:
     def __str__(self) -> str:
         """Returns the fault and the remedy."""
         return (
-            f"{self.file}:{self.line}: states '{self.stated}', and the rows give "
+            f"{self.file}:{self.line}: states '{self.stated}', but the rows give "
             f"'{self.computed}'; edit the template, or run scripts/publish --texts"
         )
 
 
 def differences(published: Path = PUBLISHED) -> list[Difference]:
-    """Returns the first line of each text that differs from what is computed."""
+    """Returns, for each text that is out of date, its first line that differs."""
     found = []
     for document in documents(published):
         stated = document.path.read_text("utf-8") if document.path.is_file() else ""
@@ -123,8 +123,8 @@ def _plot(folder: Path, stem: str) -> str:
 def _render(environment: Environment, template: Path, name: str, known: _Folders) -> str:
     folder = template.parent
     note = (
-        f"<!-- Written by `scripts/publish --texts` from {template.name} and the rows here: "
-        "edit that. -->\n"
+        f"<!-- Written by `scripts/publish --texts` from {template.name} and the rows in "
+        "this folder; edit the template. -->\n"
     )
     try:
         own = known.all() if folder == known.published else known.of(folder.name)

@@ -1,4 +1,4 @@
-"""Line breaks and images in Markdown: the lengths of figures vary, so lines are filled again."""
+"""Line breaks and images in Markdown: since the lengths of figures vary, lines are refilled."""
 
 import re
 import textwrap

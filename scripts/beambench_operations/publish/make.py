@@ -25,10 +25,10 @@ from beambench_report.base.quantities import duration_in_words
 
 WRONG_HITS = 1
 _FIRST_TEMPLATES = Path(__file__).parent / "templates"
-"""The page of a folder that was not published before."""
+"""The templates of folders that were not published before."""
 
 Run = Callable[[Sequence[str], Path | None], int]
-"""Runs a program, with its standard output in a file or discarded; returns its exit code."""
+"""A function that runs a program, with its output in a file or discarded; returns its exit code."""
 
 
 class Interrupted(KeyboardInterrupt):
@@ -37,7 +37,7 @@ class Interrupted(KeyboardInterrupt):
 
 @dataclass(frozen=True)
 class Place:
-    """Where a folder is made, the programs that make it, and its destination."""
+    """The place where a folder is made, the programs that make it, and its destination."""
 
     aside: Path
     published: Path
@@ -60,7 +60,7 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
     """Runs the remaining steps and publishes the folder.
 
     Raises Problem if a step fails, Interrupted if the user interrupts it. A later call continues on
-    the same machine, and starts over on another one.
+    the same machine, and starts over on a different one.
     """
     target = place.aside / folder.name_aside
     progress = progress_of(target, provenance)
@@ -82,7 +82,7 @@ def make_folder(folder: Folder, place: Place, provenance: Provenance) -> Progres
             raise Problem(f"{folder.name}: exit code {code} of: {step.words}")
         took = time.monotonic() - begun
         progress.done(took, wrong=code == WRONG_HITS)
-        say(f"   {duration_in_words(took)}, planned were {duration_in_words(step.seconds)}")
+        say(f"   {duration_in_words(took)}, {duration_in_words(step.seconds)} planned")
     _publish(folder, progress, place.published / folder.name)
     return progress
 
@@ -106,7 +106,7 @@ def _sweep(step: Sweep, target: Path, place: Place) -> int:
     run = target / step.into
     beambench = [str(place.beambench), *(f"--plugin={one}" for one in place.plugins), "run"]
     if (run / "config.json").is_file():
-        if is_finished(run):  # before that could be recorded here
+        if is_finished(run):  # it ended before that was recorded here
             return 0
         return place.run([*beambench, "--resume", str(run)], None)
     config = target.with_name(f"{target.name}.sweep.json")

@@ -15,7 +15,7 @@ from beambench_report.base.files import ROOT, Problem, say
 _MESH = "mesh:cat"
 _CLONE = "root/beambench"
 _ASIDE = "results/runs/aside"
-"""The folders that are being made, below the clone."""
+"""The place of the folders that are being made, below the clone."""
 
 
 def missing(folder: Folder, given: Options, provenance: Provenance) -> str:
@@ -24,15 +24,15 @@ def missing(folder: Folder, given: Options, provenance: Provenance) -> str:
     `given` are the options of scripts/publish.
     """
     if folder.embree and not provenance.embree.startswith(f"{folder.embree}."):
-        return f"it takes Embree {folder.embree}, and this program has {provenance.embree}"
+        return f"it needs Embree {folder.embree}, but this program has {provenance.embree}"
     if folder.needs == "meshes" and not _knows(given.beambench, _MESH):
         return "the meshes are not registered; register them with scripts/meshes"
     if folder.needs == "its name" and folder.name not in given.only:
-        return f"name it, for it takes long: --only {folder.name}"
+        return f"it takes long, so it must be named: --only {folder.name}"
     if folder.needs == "libraries" and not (given.tinybvh and given.madmann91_bvh):
-        return "give --tinybvh DIR and --madmann91-bvh DIR; its table keeps its commit"
+        return "give --tinybvh DIR and --madmann91-bvh DIR; otherwise, the published table stays"
     if folder.needs == "debian-13" and not given.debian_13:
-        return "give --debian-13 DIR, as root; its table keeps its commit"
+        return "give --debian-13 DIR, as root; otherwise, the published table stays"
     return ""
 
 
@@ -72,7 +72,7 @@ class Debian13:
         self.build()
 
     def build(self) -> None:
-        """Installs missing packages there, and builds. Raises Problem on failure."""
+        """Installs missing packages in the system, and builds. Raises Problem on failure."""
         say("Building in Debian 13")
         if code := self._shell("scripts/setup beambench", self.root):
             raise Problem(f"{self.root}: exit code {code} of: scripts/setup beambench")
@@ -83,8 +83,8 @@ class Debian13:
         return self._shell(shlex.join(["build/release/bin/beambench", *inside[1:]]), aside)
 
     def _shell(self, words: str, aside: Path) -> int:
-        """Runs a line in the clone, with /proc, /sys and /dev, and `aside` as a folder of the
-        clone.
+        """Runs a command line in the clone, with /proc, /sys and /dev, and with `aside` as a folder
+        of the clone.
 
         The mounts are in a separate namespace, so they end with the process.
         """

@@ -47,9 +47,9 @@ class Command:
     words_of: tuple[str, ...]
     seconds: float
     resume: tuple[str, ...] = ()
-    """Arguments that continue it after an interruption; empty: it is started again."""
+    """Arguments that continue the program after an interruption; if empty, it is restarted."""
     into: str = ""
-    """The file for its standard output; empty: the output is discarded."""
+    """The file for its standard output; if empty, the output is discarded."""
 
     @property
     def words(self) -> str:
@@ -75,13 +75,13 @@ class Folder:
     --only. Without it the folder is left as it is.
     """
     embree: str = ""
-    """The major version of Embree that it requires; empty: any."""
+    """The major version of Embree that it requires; if empty, any version."""
     keep: Sequence[str] = ()
     """Files of an earlier commit that no step makes; the texts name their commit."""
     leave_out: Sequence[str] = ()
-    """Patterns of files and folders that steps make and no published text needs."""
+    """Patterns of files and folders that steps make but no published text needs."""
     is_apart: bool = False
-    """Is its time excluded from the total?"""
+    """Whether its time is excluded from the total."""
 
     @property
     def name_aside(self) -> str:
@@ -127,7 +127,7 @@ def read_plan(path: Path = PLAN) -> Plan:
 def as_table(plan: Plan, states: dict[str, str], published: dict[str, Extent]) -> str:
     """Returns the plan as a table.
 
-    `states` has the state of each folder, `published` the extent of those that are published.
+    `states` has the state of each folder, `published` the extent of each published folder.
     """
     rows = []
     for one in plan.folders:
@@ -138,7 +138,7 @@ def as_table(plan: Plan, states: dict[str, str], published: dict[str, Extent]) -
         rows.append((one.name, one.question, minutes, *extent, states.get(one.name, "")))
     heads = ("folder", "question", "minutes", "took", "cells", "blocks", "state")
     lines = markdown_table(heads, rows, right=(2, 3, 4, 5))
-    return "\n".join([*lines, "", f"{plan.minutes:.0f} minutes in all, but for what is apart"])
+    return "\n".join([*lines, "", f"{plan.minutes:.0f} minutes in all, not counting (apart)"])
 
 
 def _folder(entry: dict[str, Any]) -> Folder:

@@ -1,4 +1,4 @@
-"""The plots of results/published, drawn again from the committed rows beside them."""
+"""Draws the plots of results/published again, from the committed rows beside them."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -25,26 +25,26 @@ _SVG = "{http://www.w3.org/2000/svg}"
 
 @dataclass(frozen=True)
 class Difference:
-    """A published plot that shows something else than its rows."""
+    """A published plot that does not agree with its rows."""
 
     file: Path
     shown: tuple[str, ...]
     """The texts that only the published plot has."""
     computed: tuple[str, ...] | None
-    """The texts that only its rows give; None where no rows give such a plot."""
+    """The texts that only its rows give; None if no rows give such a plot."""
 
     def __str__(self) -> str:
         """Returns the fault and the remedy."""
         if self.computed is None:
             return f"{self.file}: no rows beside it give this plot; remove it, or commit its rows"
         return (
-            f"{self.file}: shows {list(self.shown)[:4]}, and the rows give "
+            f"{self.file}: shows {list(self.shown)[:4]}, but the rows give "
             f"{list(self.computed)[:4]}; draw it again with scripts/publish --plots"
         )
 
 
 def drawn_again(folder: Path) -> dict[Path, str]:
-    """Draws the SVG plots below a published folder again; those that no rows give are missing."""
+    """Draws the SVG plots below a published folder again, except those that no rows give."""
     published = set(folder.rglob("*.svg"))
     with house_style():
         plots = {
@@ -59,7 +59,7 @@ def differences(folder: Path) -> Iterator[Difference]:
     """Yields the plots below a published folder whose texts the committed rows do not give.
 
     The texts of a plot are its labels, the numbers at its axes, and the values that a browser
-    shows where the mouse rests.
+    shows under the mouse.
     """
     again = drawn_again(folder)
     for path in sorted(folder.rglob("*.svg")):
@@ -83,7 +83,7 @@ def write_plots(published: Path) -> list[Path]:
 
 
 def texts(svg: str) -> list[str]:
-    """Returns all that a plot says, in alphabetical order."""
+    """Returns all texts of a plot, in alphabetical order."""
     root = ElementTree.fromstring(svg)
     parts = (part for tag in ("text", "title") for part in root.iter(f"{_SVG}{tag}"))
     return sorted(" ".join("".join(part.itertext()).split()) for part in parts)
@@ -94,11 +94,11 @@ def _without(some: list[str], others: list[str]) -> tuple[str, ...]:
 
 
 def _plots(folder: Path) -> Iterator[tuple[Path, list[Plot]]]:
-    """Yields the folders of plots below a published folder, with all that their rows give."""
+    """Yields the plot folders below a published folder, each with plots drawn from its rows."""
     for plots in sorted(path for path in folder.rglob("plots") if path.is_dir()):
         measured = read_measured(plots.parent)
         stems = [path.stem for path in plots.glob("*.svg")]
-        # Drawing what is not there takes minutes. A stem begins with the first word of its kind.
+        # Drawing unpublished plots takes minutes. A stem begins with the first word of its kind.
         kinds = [kind for kind in KINDS if _is_among(kind.name.split()[0], stems)]
         yield plots, list(draw(measured, kinds))
         if _is_among("fronts", stems):

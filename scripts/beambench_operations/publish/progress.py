@@ -66,11 +66,11 @@ class Extent:
     seconds: float | None
     cells: int
     blocks: int | None
-    """The fewest of a cell with times; none where no row states blocks."""
+    """The fewest blocks of a cell with times; None if no row states blocks."""
 
 
 def extent_of(folder: Path) -> Extent:
-    """Returns the extent of a published folder, by its record, or its manifests, and its rows."""
+    """Returns the extent of a published folder, from its record or manifests, and its rows."""
     nested = [file.parent for file in folder.rglob(RECORD) if file.parent != folder]
     within = [
         file for file in folder.rglob("*") if not any(file.is_relative_to(one) for one in nested)
@@ -87,6 +87,6 @@ def extent_of(folder: Path) -> Extent:
 
 
 def is_published(folder: Path, provenance: Provenance) -> bool:
-    """Is this folder complete, by the same sources on the same machine?"""
+    """Returns whether the same sources made the complete folder on the same machine."""
     source = read_json(folder / RECORD)
     return isinstance(source, dict) and provenance.is_of(source.get("made_by", {}))

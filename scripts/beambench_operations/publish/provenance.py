@@ -36,7 +36,7 @@ class Provenance:
     """How much longer than usual the slowest 5% of equal work took just now."""
     load: float
     cpu_quota: float | None = None
-    """How many processors' time the program may use; None: without a quota."""
+    """The quota of processor time, in processors; None without a quota."""
 
     @property
     def warnings(self) -> list[str]:
@@ -51,14 +51,14 @@ class Provenance:
         return found
 
     def is_of(self, other: dict[str, object]) -> bool:
-        """Is a record from this machine and the same sources?"""
+        """Returns whether a record is from this machine and the same sources."""
         return other.get("machine_id") == self.machine_id and same_sources(
             str(other.get("commit", "")), self.commit
         )
 
 
 def preflight(beambench: Path) -> Provenance:
-    """Runs a cell that takes a second, and reads the provenance from its manifest.
+    """Measures a cell that takes a second, and reads the provenance from its manifest.
 
     Raises Problem if the program cannot be run.
     """
@@ -85,7 +85,7 @@ def preflight(beambench: Path) -> Provenance:
 
 
 def require_clean(provenance: Provenance, root: Path = ROOT) -> None:
-    """Raises Problem for uncommitted changes, and for a program built from other sources.
+    """Raises Problem for uncommitted changes, and for a program built from different sources.
 
     results/published may change, since a publication writes there.
     """
@@ -105,7 +105,7 @@ def require_clean(provenance: Provenance, root: Path = ROOT) -> None:
 
 
 def same_sources(one: str, other: str, root: Path = ROOT) -> bool:
-    """Do two commits measure the same?"""
+    """Returns whether two commits have the same sources that affect times."""
     if one == other:
         return True
     command = ["git", "-C", str(root), "diff", "--quiet", one, other, "--", *_MEASURES]

@@ -35,7 +35,7 @@ def _comparison(names: Sequence[str], folder: Path) -> str:
 
 
 def _thesis(name: str, folder: Path) -> str:
-    """Returns a text on the thesis. The pictures of octrees exist already, so none are drawn."""
+    """Returns a text on the thesis. No octrees are drawn, since their pictures exist already."""
     return _thesis_texts(folder)[name]
 
 

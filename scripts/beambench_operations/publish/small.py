@@ -19,8 +19,8 @@ _NOT_COMMITTED = (
     "*answers.jsonl",
     "tasks",
 )
-"""Interrupted simulations of the cluster continue from `answers` and start from `tasks`, which has
-the cost of each beam.
+"""Files that are not committed. Simulations of the cluster start from `tasks`, which has the cost
+of each beam, and continue from `answers` if they were interrupted.
 """
 
 

@@ -23,7 +23,7 @@ _OTHER_LIBRARIES = ("embree-4", "libraries")
 
 
 def committed(published: Path) -> dict[tuple, pd.DataFrame]:
-    """Returns the rows of each view of all committed runs; for a cell of several runs, the last.
+    """Returns the rows of each view of all committed runs; if several have a cell, the last row.
 
     The columns `resolution` and `contender` (as for the option --accel) are added.
     """
@@ -45,7 +45,7 @@ def committed(published: Path) -> dict[tuple, pd.DataFrame]:
 def verify_again(published: Path, beambench: Path, record: Path) -> list[dict[str, Any]]:
     """Verifies each view; returns the findings in the order of the views.
 
-    `record` receives a line for each finished view; views that it has are not verified again.
+    `record` receives a line for each finished view; the views in it are not verified again.
     """
     done = {line["view"]: line for line in _lines(record)}
     views = {", ".join(map(str, view)): rows for view, rows in committed(published).items()}
@@ -57,7 +57,7 @@ def verify_again(published: Path, beambench: Path, record: Path) -> list[dict[st
         line: dict[str, Any] = {"view": title, "verified": 0, "cells": []}
         try:
             line |= _compared(rows, _verified(title, rows, beambench))
-        except Problem as problem:  # a mesh that is not here
+        except Problem as problem:  # for example, a mesh that is not registered here
             line["problem"] = str(problem)
         with record.open("a", encoding="utf-8") as file:
             file.write(json.dumps(line) + "\n")

@@ -41,10 +41,13 @@ def main(arguments: list[str]) -> int:
     parser.add_argument(
         "libraries", nargs="*", metavar="NAME=PLUGIN", help="as scripts/outside prints it"
     )
-    parser.add_argument("--kit", type=Path, help="what 'selftest --export' wrote")
+    parser.add_argument("--kit", type=Path, help="the folder that 'selftest --export' wrote")
     parser.add_argument("--speed", type=Path, metavar="RUN", help="run of speed.json to publish")
     parser.add_argument(
-        "--work", type=Path, default=Path("build/referee"), help="folder of verdicts, kept"
+        "--work",
+        type=Path,
+        default=Path("build/referee"),
+        help="folder of verdicts, which are kept",
     )
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--program", default="build/release/bin/beambench")

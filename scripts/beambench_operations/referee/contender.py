@@ -17,7 +17,7 @@ CRASH = re.compile(r"over \S*?([^/\s]+)/scene\.nff (crashed|ended the process) ?
 
 
 def part_of_kit(kit: Path, folder: Path, chosen: Callable[[str], bool]) -> Path:
-    """Makes a kit of the chosen cases, by the names of their folders."""
+    """Makes a kit of the cases whose folders' names are chosen."""
     index = json.loads((kit / "kit.json").read_text("utf-8"))
     index["cases"] = [case for case in index["cases"] if chosen(case["folder"])]
     folder.mkdir()
@@ -31,7 +31,7 @@ class Contender:
     """A library as a contender of the program."""
 
     def __init__(self, program: str, name: str, plugin: str) -> None:
-        """Initializes it; nothing runs yet."""
+        """Stores the command; nothing runs yet."""
         self.name = name
         self._words = [program, "--plugin", plugin]
 
@@ -47,14 +47,14 @@ class Contender:
         return done.stdout
 
     def version(self) -> str:
-        """Returns what its rows state as library and version."""
+        """Returns the library and version that its rows state."""
         text = self._run("stats", "tetra:n=1", "--accel", self.name, "--json")
         return str(json.loads(text)["structures"][0]["library_version"])
 
     def verify(self, kit: Path, verdict: Path) -> list[dict[str, Any]]:
-        """Returns the cases of the kit as found, from an earlier verdict if there is one.
+        """Returns the verified cases of the kit, from an earlier verdict if there is one.
 
-        A scene over which the library crashes is an error, and left out.
+        A scene over which the library crashes is left out, and its cases get the verdict `error`.
         """
         crashes: dict[str, str] = {}
         while not verdict.exists():

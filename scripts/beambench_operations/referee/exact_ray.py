@@ -31,13 +31,13 @@ def _det(a: Vector, b: Vector, c: Vector) -> Fraction:
 
 
 def weights(triangle: Triangle, origin: Vector, direction: Vector) -> Vector:
-    """Returns the barycentric coordinates, times their sum, of where the line meets the plane."""
+    """Returns the barycentric coordinates, times their sum, where the line meets the plane."""
     a, b, c = (_minus(corner, origin) for corner in triangle)
     return _det(direction, b, c), _det(direction, c, a), _det(direction, a, b)
 
 
 def crossing(triangle: Triangle, origin: Vector, direction: Vector) -> Fraction | None:
-    """Returns t where the line meets the closed triangle; nothing if it misses or is parallel."""
+    """Returns t where the line meets the closed triangle; None if it misses or is parallel."""
     found = weights(triangle, origin, direction)
     total = sum(found)
     if total == 0 or (min(found) < 0 < max(found)):
@@ -53,7 +53,7 @@ def closest(
     t_min: float = 0.0,
     t_max: float | None = None,
 ) -> Fraction | None:
-    """Returns the smallest t in the closed interval; nothing if the ray hits nothing."""
+    """Returns the smallest t in the closed interval; None if the ray hits nothing."""
     start, way = vector(origin), vector(direction)
     hits = (crossing(triangle, start, way) for triangle in triangles)
     inside = [

@@ -68,7 +68,7 @@ class Counterexample:
 
     folder: str
     leak: bool
-    """Whether it is a leak out of a closed mesh, and not a wrong hit."""
+    """Whether it is a leak out of a closed mesh rather than a wrong hit."""
     triangles: int
     reported: str
     exact: str
@@ -89,7 +89,7 @@ def _text(t: float | None) -> str:
 
 
 def counterexample(folder: Path) -> Counterexample:
-    """Reads a case of `verify --minimize`, and confirms it exactly."""
+    """Reads a case of `verify --minimize`, and checks it exactly."""
     case = json.loads((folder / "case.json").read_text("utf-8"))["wrong"]
     triangles = read_obj(folder / "scene.obj")
     ray = case["ray"]

@@ -1,4 +1,4 @@
-"""The libraries of the referee's table: how each is installed, computes, and is traced."""
+"""The libraries of the referee's table: how each is installed, computes, and traces rays."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Library:
-    """What the page states about a library besides its results."""
+    """The facts that the page states about a library besides its results."""
 
     install: str
     """The command that prints its plug-in."""
     precision: str
     traced: str
-    """How a batch is traced, and what is inside the time."""
+    """How a batch is traced, and what the time includes."""
 
 
-_CALLS = "a call for each ray, conversion inside"
-_BATCH = "one call, conversion in Python inside, self-reported"
+_CALLS = "a call for each ray, including conversion"
+_BATCH = "one call, including conversion in Python, self-reported"
 
 LIBRARIES = {
     "obvhs": Library("scripts/outside obvhs", "float", f"CWBVH, {_CALLS}"),
@@ -37,10 +37,10 @@ LIBRARIES = {
     "three-mesh-bvh": Library("scripts/outside three-mesh-bvh", "vertices float, tests double",
                               "a call for each ray from JavaScript, self-reported"),
 }  # fmt: skip
-"""By the name of the structure."""
+"""The libraries, by the names of their structures."""
 
 PRECISIONS = {"tinybvh:layout=double": "double"}
-"""Of a structure with parameters, where it differs."""
+"""The precision of structures with parameters, where it differs from the library's."""
 
 
 def library(contender: str) -> Library:
@@ -57,5 +57,5 @@ def precision(contender: str) -> str:
 
 
 def traced(contender: str) -> str:
-    """Returns how a structure with parameters traces a batch, and what is inside the time."""
+    """Returns how a structure with parameters traces a batch, and what the time includes."""
     return library(contender).traced

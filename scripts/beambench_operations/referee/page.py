@@ -1,4 +1,4 @@
-"""The page of the referee's table, from its CSV files and the counterexamples beside them."""
+"""Builds the referee's page from the CSV files and counterexamples in its folder."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from beambench_operations.referee.speed import read_speed
 Rows = list[dict[str, Any]]
 PUBLISHED = "results/published/referee"
 QUIET = 1.5
-"""A load above this is other work: the run itself makes a load of 1."""
+"""A load above this means other work, because the run itself causes a load of 1."""
 
 TEMPLATE = Path(__file__).with_name("page.md.j2")
 
 
 def share(rows: Rows, query: str) -> str:
-    """Returns the share of right results of a query, rounded so that only all are 100%."""
+    """Returns the share of right results of a query, rounded so that 100% means all."""
     chosen = [row for row in rows if row["query"] == query]
     rays = sum(row["rays"] for row in chosen)
     wrong = sum(map(wrong_rays, chosen))
@@ -39,7 +39,7 @@ def share(rows: Rows, query: str) -> str:
 
 
 def families(rows: Rows, chosen: Callable[[dict[str, Any]], bool]) -> str:
-    """Returns the names of the families of the rows that are chosen, each once."""
+    """Returns the names of the families of the chosen rows, each once."""
     return ", ".join(dict.fromkeys(row["family"] for row in rows if chosen(row))) or "-"
 
 
@@ -84,7 +84,7 @@ def family_cell(rows: Rows, family: str) -> str:
 
 
 def family_table(libraries: list[Rows]) -> tuple[str, str]:
-    """Returns the shares by family, where any library is wrong, and the other families."""
+    """Returns the shares in families where any library is wrong, and the other families."""
     names = list(dict.fromkeys(row["family"] for row in libraries[0]))
     wrong = [
         name
@@ -102,7 +102,7 @@ def family_table(libraries: list[Rows]) -> tuple[str, str]:
         "|---|" + "---:|" * len(libraries),
         *(table_row([name, *(family_cell(rows, name) for rows in libraries)]) for name in wrong),
     ]
-    return "\n".join(lines), ", ".join(right) or "no family"
+    return "\n".join(lines), ", ".join(right) or "none"
 
 
 def repeat_command(name: str, case: Counterexample) -> str:
@@ -131,7 +131,7 @@ def case_row(name: str, version: str, case: Counterexample | None) -> str:
 
 
 def speed_section(rows: list[dict[str, str]]) -> dict[str, str]:
-    """Returns what the page states about speeds, or nothing if they were not measured."""
+    """Returns the values of the section on speed; empty if speeds were not measured."""
     if not rows:
         return {}
     kinds = list(dict.fromkeys(row["ray_kind"] for row in rows))
@@ -159,7 +159,7 @@ def speed_section(rows: list[dict[str, str]]) -> dict[str, str]:
 
 
 def known_faults(libraries: list[Rows]) -> dict[str, str]:
-    """Returns what shows the faults of public reports, or nothing without tinybvh."""
+    """Returns counts that show tinybvh's publicly reported faults; empty without tinybvh."""
     versions: dict[tuple[str, str], Rows] = {}
     for rows in libraries:
         if rows[0]["library"].startswith("tinybvh:layout="):

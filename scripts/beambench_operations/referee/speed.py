@@ -9,7 +9,7 @@ from typing import Any
 
 COLUMNS = ("contender", "version", "ray_kind", "scene", "rays", "verdict", "blocks", "mrays",
            "mrays_low", "mrays_high", "commit", "cpu", "highest_load", "utc")  # fmt: skip
-"""The columns of speed.csv; mrays_low and mrays_high are the 95% interval, empty without one."""
+"""The columns of speed.csv; mrays_low and mrays_high are the 95% interval, or empty."""
 
 
 def named_parameters(sweep: dict[str, Any]) -> dict[str, list[str]]:

@@ -38,7 +38,7 @@ _INTERRUPTED = "interrupted; the same command continues after the last complete 
 
 @dataclass(frozen=True)
 class Release:
-    """A release that is being made in a folder of its own."""
+    """A release that is being made in its own folder."""
 
     version: str
     commit: str
@@ -46,7 +46,7 @@ class Release:
 
     @property
     def files(self) -> Path:
-        """The folder of what is released."""
+        """The folder of the released files."""
         return self.folder / "files"
 
     @property
@@ -57,16 +57,16 @@ class Release:
 
 @dataclass(frozen=True)
 class Step:
-    """A part of the work, which is done whole or not at all."""
+    """A part of the work, which is done completely or not at all."""
 
     name: str
     does: str
     make: Callable[[Release, Path], None]
-    """Gets an empty folder, which is removed afterwards."""
+    """The function that does the step in an empty folder, which is removed afterwards."""
 
 
 def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the command line; returns the exit code."""
     parser = ScriptParser("release")
     parser.add_argument("version", metavar="VERSION")
     parser.add_argument("--check", action="store_true")
@@ -108,9 +108,9 @@ def _run(options: Options) -> int:
 
 
 def require_releasable(version: str, root: Path = ROOT) -> None:
-    """Raises Problem for a tree that is not that version, with everything committed."""
+    """Raises Problem unless the tree has that version and everything is committed."""
     if found := next(disagreements(version, root), None):
-        raise Problem(f"{found}; write one version in all of them")
+        raise Problem(f"{found}; write the same version in all of them")
     if not release_date(root):
         raise Problem("CITATION.cff has no 'date-released: YEAR-MONTH-DAY'")
     if changed := git("status", "--porcelain", root=root):
@@ -175,10 +175,14 @@ def _package(suite: str, release: Release, work: Path) -> None:
 
 def _steps(suites: Sequence[str]) -> list[Step]:
     return [
-        Step("source", "packing what git has of the commit", _archive),
+        Step("source", "packing the files of the commit", _archive),
         Step("wheels", "building both wheels (scripts/wheel)", _wheels),
         *(
-            Step(f"wheels-{suite}", f"using them in a bare {suite}", partial(_try_wheels, suite))
+            Step(
+                f"wheels-{suite}",
+                f"using the wheels in a bare {suite}",
+                partial(_try_wheels, suite),
+            )
             for suite in suites
         ),
         *(

@@ -11,10 +11,10 @@ from beambench_report.base.files import ROOT, Problem
 
 _BASES = ROOT / "build/bare"
 _CACHE = _BASES / "cache"
-"""Root's caches, shared by all systems, among them that of the compiler."""
+"""Root's caches, including that of the compiler; all systems share them."""
 _CERTIFICATES = "/etc/ssl/certs/ca-certificates.crt"
 _OWN_CERTIFICATES = "/etc/ssl/outside.crt"
-"""Those of this machine: behind a proxy, the registries have others than Debian's."""
+"""This machine's certificates: behind a proxy, those of the registries are not Debian's."""
 _OWN_MOUNTS = ("unshare", "--mount", "--pid", "--kill-child")
 _ENTER = """
 mkdir --parents "$1/root/.cache" "$2" &&
@@ -100,7 +100,7 @@ class BareSystem:
 
 
 def _run(*command: str, shown: str = "", environment: Mapping[str, str] | None = None) -> str:
-    """Returns the output of a command. Raises Problem with what it printed where it fails."""
+    """Returns the output of a command. Raises Problem with the output if it fails."""
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     if done.returncode:
         words = done.stdout[-2000:] + done.stderr[-4000:]

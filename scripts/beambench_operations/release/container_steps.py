@@ -23,7 +23,7 @@ class Stage:
     entry: tuple[str, ...] = ()
 
     def run(self, *arguments: str, network: bool = True) -> str:
-        """Runs the entry point as the image's user, whom a volume allows to write."""
+        """Runs the entry point in the image's folder, as the image's user."""
         words = (*self.entry, *arguments)
         return self.system.run(*words, folder=self.folder, user=self.user, network=network)
 
@@ -40,8 +40,9 @@ def instructions(text: str) -> Iterator[tuple[str, str]]:
 def replay(make: Callable[[str], BareSystem], archive: Path | None = None) -> dict[str, Stage]:
     """Builds every stage of the Dockerfile in a system that `make` returns for its suite.
 
-    Returns them by name, the last one by the empty name. The context is the source archive or, by
-    default, the working tree. Raises Problem for an instruction that cannot be replayed.
+    Returns the stages by name; the name of the last stage is empty. The context is the source
+    archive or, by default, the working tree. Raises Problem for an instruction that cannot be
+    replayed.
     """
     stages: dict[str, Stage] = {}
     stage: Stage | None = None
@@ -74,7 +75,7 @@ def replay(make: Callable[[str], BareSystem], archive: Path | None = None) -> di
 
 
 def _copy(stage: Stage, words: str, stages: dict[str, Stage], archive: Path | None) -> None:
-    """Executes a COPY instruction; from the repository, only files known to git."""
+    """Executes a COPY instruction; copies only files known to git from the repository."""
     *sources, target = words.split()
     into = stage.system.path(str(Path(stage.folder) / target))
     into.mkdir(parents=True, exist_ok=True)

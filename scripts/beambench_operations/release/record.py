@@ -25,7 +25,7 @@ Row = dict[str, str]
 
 
 def read_record(path: Path = RECORD) -> list[Row]:
-    """Returns the rows, newest version first. Raises Problem where the record is malformed."""
+    """Returns the rows, newest version first. Raises Problem if the record is malformed."""
     with path.open(encoding="utf-8", newline="") as table:
         reader = csv.DictReader(table)
         rows = list(reader)
@@ -61,7 +61,7 @@ def write_release(rows: Sequence[Row], path: Path = RECORD) -> Path:
 
 
 def _faults(names: Sequence[str], rows: Sequence[Row]) -> Iterator[str]:
-    """Yields the line and the fault of each row that is not as COLUMNS and _SHAPES say."""
+    """Yields the line and the fault of each row that does not match COLUMNS and _SHAPES."""
     if tuple(names) != COLUMNS:
         yield f"1: the columns are {','.join(names)}, not {','.join(COLUMNS)}"
         return
@@ -73,9 +73,9 @@ def _faults(names: Sequence[str], rows: Sequence[Row]) -> Iterator[str]:
                 yield f"{line}: {name} is '{row[name]}', which does not match {shape}"
                 return
         if len({bool(row[name]) for name in ("file", "bytes", "sha256")}) > 1:
-            yield f"{line}: file, bytes and sha256 are not all there or all empty"
+            yield f"{line}: file, bytes and sha256 must be all filled or all empty"
         if row["file"] and row["file"] in files:
-            yield f"{line}: {row['file']} is there twice"
+            yield f"{line}: {row['file']} is listed twice"
         files.add(row["file"])
         own = (row["date"], row["commit"])
         if seen.setdefault(row["version"], own) != own:

@@ -1,4 +1,4 @@
-"""Trials of what a release consists of, in bare systems without a network."""
+"""Tries the files of a release in bare systems without a network."""
 
 import resource
 import shutil
@@ -15,7 +15,7 @@ PYTHON_OF_SUITE = {"bookworm": "3.11", "trixie": "3.13"}
 FINGERPRINT = ROOT / "tests/golden/fingerprint.txt"
 _TAGS = "manylinux2014 manylinux_2_27 manylinux_2_28 manylinux_2_34 manylinux_2_35".split()
 _LEAST_PAGE = 500_000
-"""Bytes of a page of `explain`, which contains the library that draws the scene."""
+"""The least bytes of a page of `explain`, which contains the library that draws the scene."""
 
 OWN_HITS = """
 import numpy as np
@@ -42,20 +42,20 @@ assert report.ok
 nearest[np.isfinite(nearest)] *= 1.1
 assert not bb.verify(scene, rays, t=nearest).ok
 """
-"""Verifies hits that numpy computed, and that wrong ones are found."""
+"""A script that verifies hits computed by numpy, and checks that wrong hits are found."""
 
 
 class Program(Protocol):
     """The program in a bare system."""
 
     def __call__(self, *arguments: str) -> str:
-        """Runs it in a folder of its own; returns its output. Raises Problem where it fails."""
+        """Runs the program in its own folder; returns the output. Raises Problem on failure."""
 
 
 def try_program(program: Program, folder: Path) -> None:
-    """Measures, compares the fingerprint, draws pictures and a page; `folder` is where it writes.
+    """Measures, compares the fingerprint, and draws pictures and a page.
 
-    Raises Problem for what is wrong.
+    The program writes to `folder`. Raises Problem if anything is wrong.
     """
     if "embree" not in program("time", "tetra", "--accel", "samet,embree", "--seconds", "5"):
         raise Problem("'beambench time' does not name its contenders")
@@ -74,8 +74,8 @@ def try_program(program: Program, folder: Path) -> None:
 def try_wheels(suite: str, wheelhouse: Path, folder: Path) -> float:
     """Installs the wheels of a folder in a bare system in `folder`, and uses them.
 
-    Returns the seconds of processor time until the first results: other work may run at the same
-    time. Raises Problem for what is wrong.
+    Returns the seconds of processor time until the first results, since other work may run at the
+    same time. Raises Problem if anything is wrong.
     """
     system = BareSystem(suite, "python3-venv", folder)
     shutil.copytree(wheelhouse, system.path("wheels"))
@@ -112,7 +112,7 @@ def try_wheels(suite: str, wheelhouse: Path, folder: Path) -> float:
 
 
 def download_dependencies(wheelhouse: Path, python: str) -> None:
-    """Adds what the wheels in a folder and reports need for a version of Python."""
+    """Downloads what the wheels in a folder and reports need for a version of Python."""
     words = f"-m pip download --quiet --only-binary=:all: --python-version={python}".split()
     words += [f"--platform={name}_x86_64" for name in _TAGS]
     words += [f"--find-links={wheelhouse}", f"--dest={wheelhouse}", "beambench[report]"]
@@ -123,7 +123,7 @@ def package_of(suite: str, archive: Path | None, folder: Path) -> Path:
     """Replays the Dockerfile in systems of a suite, in `folder`, and uses the installed package.
 
     The sources are those of the archive or, by default, the working tree. Returns the Debian
-    package. Raises Problem for what is wrong.
+    package. Raises Problem if anything is wrong.
     """
 
     def make(_: str) -> BareSystem:
@@ -136,10 +136,10 @@ def package_of(suite: str, archive: Path | None, folder: Path) -> Path:
 
 
 def try_image(image: Stage) -> None:
-    """Uses the program of an image as its user. Raises Problem for what is wrong."""
+    """Uses the program of an image as its user. Raises Problem if anything is wrong."""
     if "uid=0" in image.system.run("id", folder="/", user=image.user):
         raise Problem("the user of the image is root")
-    image.system.run("chown", image.user, image.folder)  # like a volume of the user's
+    image.system.run("chown", image.user, image.folder)  # like a user's volume
     folder = image.system.path(image.folder)
 
     def program(*arguments: str) -> str:
@@ -147,11 +147,11 @@ def try_image(image: Stage) -> None:
 
     try_program(program, folder)
     if (folder / "a.png").stat().st_uid == 0:
-        raise Problem("files of the image's user belong to root")
+        raise Problem("files written by the image's user are owned by root")
 
 
 def _require_fingerprint(printed: str) -> None:
-    """Compares everything but the hits within tolerance, which depend on the processor."""
+    """Compares everything except the hits within tolerance, which depend on the processor."""
     if printed.split("tolerance\t")[0] != FINGERPRINT.read_text("utf-8").split("tolerance\t")[0]:
         raise Problem(f"'beambench fingerprint' does not print {FINGERPRINT}")
 

@@ -18,7 +18,7 @@ _PROJECTS = ("pyproject.toml", "harness/cli/wheel/pyproject.toml")
 def stated_versions(root: Path = ROOT) -> dict[str, str]:
     """Returns the version that each file states, by path; empty if it states none.
 
-    That of the change log is its first section, that of a wheel what its build reads.
+    For the change log, it is that of the first section; for a wheel, the one its build reads.
     """
     stated = {file: _found(pattern, root / file) for file, pattern in _STATED.items()}
     stated[".github/CHANGELOG.md"] = stated[".github/CHANGELOG.md"].partition(" (")[0]
@@ -26,7 +26,7 @@ def stated_versions(root: Path = ROOT) -> dict[str, str]:
 
 
 def disagreements(version: str, root: Path = ROOT) -> Iterator[str]:
-    """Yields a sentence for each file that states another version."""
+    """Yields a sentence for each file that states a different version."""
     for file, stated in stated_versions(root).items():
         if stated != version:
             yield f"{file} states version '{stated}', not '{version}'"

@@ -29,7 +29,7 @@ class Change:
     """The change from one commit to another."""
 
     subjects: tuple[str, ...]
-    """The subjects of the first twenty commits between, the newest first."""
+    """The subjects of at most twenty commits between them, the newest first."""
     url: str
     """The web page that shows the difference; may be empty."""
     command: str

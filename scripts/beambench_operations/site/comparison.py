@@ -1,5 +1,5 @@
-"""Compares two runs of one sweep, cell by cell: ratios within each run, and milliseconds on one
-machine.
+"""Compares two runs of one sweep, cell by cell: ratios within each run, and milliseconds if both
+ran on one machine.
 """
 
 from collections import Counter
@@ -20,9 +20,9 @@ class Pair:
     before: Cell
     after: Cell
     ratios: tuple[Ends | None, Ends | None]
-    """The ratio to the reference within each run; None without one."""
+    """The ratio to the reference within each run; None without a reference."""
     ratio: Ratio | None
-    """The later ratio to the reference over the earlier one; None without either."""
+    """The later ratio to the reference over the earlier one; None if one is missing."""
     ms: Ratio | None
     """The same for milliseconds; None across machines."""
 
@@ -56,16 +56,16 @@ class Comparison:
 
     @property
     def same_machine(self) -> bool:
-        """Are milliseconds compared?"""
+        """Whether milliseconds are compared."""
         return not self.warning
 
     def count(self, side: str) -> int:
-        """Counts the ratios that are higher (`slower`) or lower (`faster`), by their intervals."""
+        """Returns the number of ratios whose interval is above 1 (`slower`) or below (`faster`)."""
         return sum(pair.side == side for pair in self.pairs)
 
     @property
     def compared(self) -> int:
-        """Counts the ratios that both runs have."""
+        """The number of ratios that both runs have."""
         return sum(pair.ratio is not None for pair in self.pairs)
 
 
@@ -76,7 +76,7 @@ def compare(before: Entry, after: Entry) -> Comparison:
         warning = (
             f"{before.machine} before, {after.machine} after. Their milliseconds "
             "are not compared, and ratios depend on the processor, too: these changes are not "
-            "the program's alone."
+            "due to the program alone."
         )
     reference, then_ratios, now_ratios = _ratios(before, after)
     known = {cell.key: cell for cell in before.cells}
@@ -94,8 +94,8 @@ def compare(before: Entry, after: Entry) -> Comparison:
         if then.verdict != cell.verdict
     ]
     counts = (
-        (sum(then.work != cell.work for then, cell in alike), "has", "have", "other counters."),
-        (len(both) - len(alike), "has", "have", "other rays or scenes; they are not compared."),
+        (sum(then.work != cell.work for then, cell in alike), "has", "have", "different counters."),
+        (len(both) - len(alike), "has", "have", "different rays or scenes; they are not compared."),
         (len(after.cells) - len(both), "is", "are", "new."),
         (len(before.cells) - len(both), "is", "are", "gone."),
     )

@@ -1,7 +1,7 @@
 """The site's record of a run: its line in the index, and its cells for comparisons.
 
-Kept as JSON within a script, `runs/<name>/data.js`, so that a page opened as a file can load it. A
-run whose files did not change since is not read again.
+It is JSON within a script, `runs/<name>/data.js`, so that a page opened as a file can load it. A
+run whose files have not changed since is not read again.
 """
 
 import json
@@ -53,7 +53,7 @@ class Cell:
     contender: str
     verdict: str
     inputs: str
-    """A hash of scene and rays; cells with different ones are not compared."""
+    """A hash of scene and rays; cells with different hashes are not compared."""
     work: str
     """A hash of its counters."""
     ms: Ends | None
@@ -86,22 +86,22 @@ class Entry:
     processor: str
     sweep: str
     in_blocks: bool
-    """Was it measured in blocks? Other runs are not compared with these."""
+    """Whether the run was measured in blocks. Other runs are not compared with such runs."""
     cut_off: bool
     wrong: int
     without_rays: int
     doubts: tuple[str, ...] | None
-    """Reasons to distrust the times; None if the record does not say."""
+    """Reasons to distrust the times; None if they were not recorded."""
     timed: int
     fastest: tuple[str, ...]
-    """The winner for each kind of rays."""
+    """The winner for each ray kind."""
     reference: str
     """The reference of the ratios; empty if no contender has times."""
     cells: tuple[Cell, ...]
 
     @property
     def machine(self) -> Machine:
-        """The machine on which it ran."""
+        """The machine on which the run was measured."""
         return Machine(self.machine_ids, self.processor)
 
     @property
@@ -111,7 +111,7 @@ class Entry:
 
     @property
     def date(self) -> str:
-        """Returns the text for tables."""
+        """Returns the date and time as tables show them."""
         return self.time.replace("T", " ").replace("Z", "")[:16] or "no date"
 
 
@@ -229,7 +229,7 @@ def read_script(path: Path, name: str, stamp: str) -> Entry | None:
         cells = tuple(Cell(*map(_frozen, cell)) for cell in source.pop("cells"))
         return Entry(cells=cells, **{key: _frozen(value) for key, value in source.items()})
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return None  # missing or of another version: it is written anew
+        return None  # missing or of another version: it is rewritten
 
 
 def _frozen(value: object) -> object:

@@ -15,21 +15,21 @@ _SCENES = {
     "gato-bill": "a cat of many small polygons",
     "habitacion": "a closed room, in which every ray hits something",
 }
-"""The scenes of the figures of the thesis's chapter 3, and what is special about them."""
+"""The scenes of the figures in the thesis's chapter 3, and what is special about each."""
 
 _FIGURES = (
     (
         "Division of beams",
         {"map": "beams", "view": "eye"},
         "The beam of the whole image is divided at the faces of the octree's leaves, until each "
-        "part meets one leaf. A part that passes an empty leaf (gray) goes on as one beam and is "
+        "part meets one leaf. A part that passes an empty leaf (gray) continues as one beam and is "
         "divided again behind it, where leaves are small.",
     ),
     (
         "Exit beams",
         {"map": "beams", "only": "2", "scene": "yes"},
-        "Exit beams alone (blue), which leave the scene through empty leaves. One of them decides "
-        "all of its pixels as background: none becomes a ray, however fine the image is.",
+        "Exit beams alone (blue), which leave the scene through empty leaves. All pixels of an "
+        "exit beam become background without tracing a ray, however fine the image is.",
     ),
     (
         "Occupied leaves",
@@ -38,16 +38,16 @@ _FIGURES = (
         "pixel of such a beam becomes a ray, which begins at the leaf and not at the eye.",
     ),
 )
-"""Title, state of the page, and paragraph of a figure."""
+"""The title, the state of the page, and the paragraph of each figure."""
 
 _OWN_TEXTS = {
-    ("habitacion", "Exit beams"): "There are none: the room is closed, and each pixel becomes a "
-    "ray. Beams save only the empty leaves that neighboring rays share.",
+    ("habitacion", "Exit beams"): "There are no exit beams: the room is closed, and each pixel "
+    "becomes a ray. Beams save only the empty leaves that neighboring rays share.",
 }
 
 _STRUCTURES_SHOW = "escena2"
 _ELSEWHERE = {"polygon-beam": "tetra:n=4"}
-"""Structures that do not support that scene's spheres."""
+"""Scenes for structures that do not support the spheres of that scene."""
 _LEFT_OUT = {"null", "embree", "exhaustive"}
 """Structures without cells to show."""
 

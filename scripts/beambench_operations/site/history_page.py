@@ -28,7 +28,7 @@ _STEP = 2000.0
 _MISSING = -32768
 
 Address = Callable[[str], str]
-"""The address of a run's page by the run's id; empty without a page."""
+"""A function that returns the address of a run's page, given the run's id; empty without a page."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Mismatch:
 
 
 def page_values(history: MachineHistory, address: Address, repository: Repository) -> dict:
-    """Content of the template, without names and comparisons."""
+    """Returns the values of the template, except names and comparisons."""
     nights = history.nights
     rows = _rows(history, address, repository)
     return {

@@ -34,9 +34,9 @@ class MachineHistory:
 
 
 def history_of(runs: Sequence[tuple[str, Path]], known: Sequence[Path]) -> MachineHistory | None:
-    """Returns the history of runs by their ids, the oldest first, from a known history or rebuilt.
+    """Returns the history of runs (oldest first, with ids), from a known history or rebuilt.
 
-    None if it has fewer than two runs.
+    Returns None if it has fewer than two runs.
     """
     if len(runs) < 2:
         return None
@@ -46,7 +46,7 @@ def history_of(runs: Sequence[tuple[str, Path]], known: Sequence[Path]) -> Machi
             try:
                 history = stack.enter_context(History(path))
                 shared = sum(history.number_of(run_id) is not None for run_id, _ in runs)
-            except Problem as problem:  # it can be made anew, here as well
+            except Problem as problem:  # it is rebuilt here
                 say(str(problem))
                 continue
             if 2 * shared >= len(runs) and shared > most:

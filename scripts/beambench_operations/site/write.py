@@ -2,7 +2,7 @@
 
 index.html                 all runs
 runs/<name>/index.html     the page of each run; data.js has its data for comparisons
-compare/<a>-vs-<b>.html    a run and the one before it; index.html: any two of a sweep
+compare/<a>-vs-<b>.html    a run and the previous run; index.html: any two runs of a sweep
 history/<name>.html        the runs of one sweep on one machine
 gallery/index.html         pages of `beambench explain`, if the program to write them is given
 site.json                  the files of the site, so that the next version can remove old ones
@@ -42,13 +42,13 @@ _BRAND = re.compile(r'(<p class="brand">)([^<]*)(</p>)')
 
 @dataclass
 class _Run:
-    """A run of the site, and the links of its line."""
+    """A run of the site, and the links in its line."""
 
     name: str
     folder: Path
     entry: Entry
     changed: bool
-    """Has it changed since the site was last written?"""
+    """Whether the run has changed since the site was last written."""
     history: str = ""
     comparisons: list[tuple[str, str]] = field(default_factory=list)
 
@@ -132,7 +132,7 @@ def _find_runs(folders: Iterable[Path]) -> tuple[list[Path], list[Path]]:
     histories: dict[Path, Path] = {}
     for folder in (wanted := list(folders)):
         if not folder.is_dir():
-            raise Problem(f"{folder}: is not a folder; give folders of runs, or that hold runs")
+            raise Problem(f"{folder}: is not a folder; give runs, or folders that contain runs")
         for place, names, files in os.walk(folder):
             here = Path(place)
             if _RUN_FILES & set(files):
@@ -150,7 +150,7 @@ def _former_files(target: Path) -> set[str]:
     """Returns the files of the existing site. Raises Problem if the folder is not a site."""
     files = read_json(target / _FILES)
     if files is None and target.exists() and (not target.is_dir() or any(target.iterdir())):
-        raise Problem(f"{target}: is not empty, and no site; give a new folder")
+        raise Problem(f"{target}: is neither empty nor a site; give a new folder")
     return {one for one in files or [] if ".." not in one and not one.startswith("/")}
 
 
@@ -166,13 +166,13 @@ def _write_runs(
         name = next(one for one in free if one not in names)
         try:
             entry, changed = _write_run(site, name, folder)
-        except Exception as error:  # whatever one record contains, the others get their pages
+        except Exception as error:  # whatever one record contains, the other runs get their pages
             prefix = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
             broken.append((folder, f"{prefix}{error}"))
             continue
         if name != first:
             doubles.append(
-                f"The run {run_id} is there twice: {names[first]} is {first}, {folder} is {name}."
+                f"The run {run_id} exists twice: {names[first]} is {first}, {folder} is {name}."
             )
         names[name] = folder
         runs.append(_Run(name, folder, entry, changed))
@@ -185,7 +185,7 @@ def _run_id(folder: Path) -> str:
     try:
         rows = pd.read_csv(path, usecols=["run_id"], dtype=str, keep_default_na=False)
         return str(rows["run_id"].iloc[-1])
-    except (OSError, ValueError, IndexError):  # pandas' errors are among them
+    except (OSError, ValueError, IndexError):  # these include pandas' errors
         return folder.name
 
 
@@ -212,8 +212,8 @@ def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
 
 
 def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None) -> None:
-    """Compares each run with its predecessors: the one on its sweep, and the one on its machine,
-    too.
+    """Compares each run with the previous run of its sweep, and with the previous one on its
+    machine.
     """
     known = published.resolve() if published else None
     by_sweep: dict[str, list[_Run]] = defaultdict(list)

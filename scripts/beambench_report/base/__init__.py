@@ -1,1 +1,1 @@
-"""Modules used by every part of the package: records, names, figures, files, published figures."""
+"""Modules used by every part of the package: records, names, plots, files, the thesis's figures."""

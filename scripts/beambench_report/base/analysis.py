@@ -1,7 +1,7 @@
-"""The conclusions from a run, as beambench draws them: who is fastest, and how good the times are.
+"""The conclusions from a run: which contenders are fastest, and how far times can be trusted.
 
-They are computed by harness/analysis and read here: from analysis.json or, for a run that was cut
-off before that was written, from the log.
+harness/analysis draws them. They are read from analysis.json; if the run was cut off before that
+file was written, the log is analyzed instead.
 """
 
 import os
@@ -32,23 +32,23 @@ class Standing:
     build_ms: float
     ns_per_ray: float
     ratio: Ratio
-    """Its trace time over that of the fastest."""
+    """The contender's trace time over that of the fastest."""
     rank: str
     """"tied" with the fastest, clearly "behind" it, "undecided", or "unranked"."""
     variant: str = ""
     """For a tuned contender, the parameters that represent it: `embree:mode=stream`."""
     isa: str = ""
-    """The instruction set of its SIMD code; empty: it has none."""
+    """The instruction set of the contender's SIMD code; empty without such code."""
 
     @property
     def name(self) -> str:
-        """The contender's name; if it is tuned, with its parameters."""
+        """The contender's name; with its parameters if it is tuned."""
         note = self.contender.removeprefix(self.structure)
         return f"{self.variant}{note}" if self.variant else self.contender
 
     @property
     def is_tied(self) -> bool:
-        """Is it the fastest, or equivalent to it?"""
+        """Whether the contender is the fastest, or equivalent to the fastest."""
         return self.rank == "tied"
 
     @property
@@ -59,12 +59,12 @@ class Standing:
 
 @dataclass(frozen=True)
 class BreakEven:
-    """The ray count from which the fastest, build included, is ahead of all not tied with it."""
+    """The ray count from which the fastest beats all not tied with it, build included."""
 
     rays: float
-    """The ray count. 0: from the first ray; infinite: never, by the medians."""
+    """The ray count: 0 if from the first ray, infinite if never, according to the medians."""
     over: str
-    """The last contender that it overtakes."""
+    """The last contender that the fastest overtakes."""
     in_words: str
 
 
@@ -74,7 +74,7 @@ class Standings:
 
     view: str
     subject: str
-    """Returns the view, whichever machine measured it."""
+    """The view without the machine that measured it."""
     ray_kind: str
     size: str
     rays: int
@@ -82,29 +82,29 @@ class Standings:
     """The contenders, the fastest first; empty if none had correct hits."""
     references: tuple[Standing, ...]
     left_out: tuple[tuple[str, str], ...]
-    """Contenders of the run without a time here, each with the reason."""
+    """The contenders of the run that have no time in this view, each with the reason."""
     unrecorded: int
-    """The number of contenders without a row, although the sweep has them here."""
+    """The number of contenders that are in the sweep for this view but have no row."""
     in_means: bool
-    """Do the means include this view?"""
+    """Whether the means include this view."""
     clock: str
-    """The clock that is compared: "wall", or "cpu" if other processes disturbed too many traces."""
+    """The clock of the compared times: "wall", or "cpu" if too many traces were disturbed."""
     break_even: BreakEven | None
     """The break-even point; None if there is no other contender."""
 
     @property
     def fastest(self) -> Standing | None:
-        """Returns the contender with the least median; `tied` has those that may be as fast."""
+        """Returns the contender with the least time; the contenders in `tied` may be as fast."""
         return self.ranked[0] if self.ranked else None
 
     @property
     def tied(self) -> tuple[Standing, ...]:
-        """Returns the other contenders that may be as fast."""
+        """Returns the other contenders that may be as fast as the fastest."""
         return tuple(one for one in self.ranked[1:] if one.is_tied)
 
     @property
     def undecided(self) -> tuple[Standing, ...]:
-        """Returns the contenders that may be as fast or slower."""
+        """Returns the contenders that may be as fast as the fastest, or slower."""
         return tuple(one for one in self.ranked[1:] if one.rank == "undecided")
 
     @property
@@ -124,15 +124,15 @@ class Standings:
 
 @dataclass(frozen=True)
 class Mean:
-    """A contender over all views of one kind of rays."""
+    """The mean of a contender over all views with one kind of rays."""
 
     contender: str
     structure: str
     ratio: Ratio
-    """The geometric mean of its ratios to the fastest of each view."""
+    """The geometric mean of the contender's ratios to the fastest of each view."""
     views: int
     wins: int
-    """Views in which it is the fastest or tied with it."""
+    """The number of views in which the contender is the fastest or tied with the fastest."""
     scatter_low: float | None = None
     scatter_high: float | None = None
     """The 95% confidence interval of the mean, from the scatter between the views."""
@@ -140,7 +140,7 @@ class Mean:
 
 @dataclass(frozen=True)
 class Overall:
-    """All contenders over all views of one kind of rays."""
+    """The means of all contenders over all views with one kind of rays."""
 
     ray_kind: str
     views: int
@@ -150,33 +150,33 @@ class Overall:
 
     @property
     def largest_ratio(self) -> float:
-        """Returns the largest ratio of any of them, where bars end."""
+        """Returns the largest mean ratio of all contenders and references, the end of the bars."""
         return max(mean.ratio.value for mean in (*self.means, *self.references))
 
 
 @dataclass(frozen=True)
 class Steadiness:
-    """The late blocks of a run compared with its early ones."""
+    """A comparison of the late blocks of a run with its early blocks."""
 
     shift: float
     """The difference of the logarithms of times: 0.03 if late blocks took 3% longer."""
     limit: float
-    """The difference that chance explains."""
+    """The largest difference that chance explains."""
 
     @property
     def is_steady(self) -> bool:
-        """Was the machine as fast late in the run as early?"""
+        """Whether the machine was as fast late in the run as early in it."""
         return abs(self.shift) <= self.limit
 
 
 @dataclass(frozen=True)
 class Overhead:
-    """The contender with the largest share of the harness in its trace time."""
+    """The cell of one query path in which the harness has the largest share of the trace time."""
 
     query_path: str
     cell: str
     title: str
-    """Returns the cell of that trace, as plots and pages name it."""
+    """The cell, as plots and pages name it."""
     part: float
 
 
@@ -197,7 +197,7 @@ class FrameCost:
 
 @dataclass(frozen=True)
 class FrameComparison:
-    """A structure in one frame: updated from the first one, and built anew."""
+    """A structure in one frame, updated from the first frame and built anew."""
 
     frame: int
     updated: FrameCost
@@ -212,7 +212,7 @@ class FrameSeries:
     """A structure with the same rays over the frames of a scene."""
 
     contender: str
-    """The structure with its parameters, apart from `update`: `embree:robust=false`."""
+    """The structure with its parameters except `update`: `embree:robust=false`."""
     subject: str
     """Scene, camera, resolution, samples and rays: `waving-sheet/default/320x240/1/primary`."""
     frames: tuple[FrameComparison, ...]
@@ -222,7 +222,7 @@ class FrameSeries:
     pays.
     """
     mean_ms: float
-    """The mean time of a frame with that number."""
+    """The mean frame time if the structure is rebuilt after that many frames."""
 
 
 @dataclass(frozen=True)
@@ -231,10 +231,10 @@ class Analysis:
 
     cells: int
     failed: int
-    """Number of cells that are wrong or were not built."""
+    """The number of cells with wrong hits or with a structure that could not be built."""
     without_rays: int
     unsupported: int
-    """Number of cells whose rays or primitives the structure does not support."""
+    """The number of cells whose rays or primitives the structure does not support."""
     reasons_for_care: tuple[str, ...]
     """Reasons to distrust the times, as clauses; an unsteady machine comes first."""
     steadiness: Steadiness | None
@@ -243,11 +243,11 @@ class Analysis:
     means: tuple[Overall, ...]
     """The means for each kind of rays."""
     overheads: tuple[Overhead, ...]
-    """The harness's share for each query path, the largest first."""
+    """The largest share of the harness for each query path, in descending order."""
     block_totals: Mapping[str, Mapping[int, float]]
-    """Build and trace of each cell, by its name, in each block; empty in records of one process."""
+    """The time of build and trace by cell name and block; empty in records of one process."""
     frame_series: tuple[FrameSeries, ...] = ()
-    """Structures that were measured updated and built anew, over the scenes that move."""
+    """The structures measured both updated and built anew, for each moving scene."""
 
     @property
     def right(self) -> int:
@@ -268,22 +268,22 @@ class Analysis:
 
     @property
     def ratios_are_paired(self) -> bool:
-        """Was any ratio to the fastest paired round by round?"""
+        """Whether any ratio to the fastest was paired round by round."""
         return any(ratio.paired for ratio in self._ratios)
 
     @property
     def is_unsteady(self) -> bool:
-        """Were late blocks faster or slower than early ones, beyond chance?"""
+        """Whether late blocks were faster or slower than early blocks, beyond chance."""
         return self.steadiness is not None and not self.steadiness.is_steady
 
     @property
     def has_blocks(self) -> bool:
-        """Do ratios come from blocks, so that they are ranked by equivalence?"""
+        """Whether ratios come from blocks; if so, contenders are ranked by equivalence."""
         return any(ratio.predicted_low is not None for ratio in self._ratios)
 
     @property
     def ties_are_known(self) -> bool:
-        """Has any ratio an interval, if there are ratios?"""
+        """Whether some ratio has an interval, or there are no ratios."""
         return not self._ratios or any(ratio.interval for ratio in self._ratios)
 
     @property
@@ -292,12 +292,15 @@ class Analysis:
 
 
 def has_analysis(directory: Path) -> bool:
-    """Can conclusions be drawn from a run in this folder?"""
+    """Returns whether conclusions can be drawn from a run in this folder."""
     return (directory / ANALYSIS).is_file() or has_log(directory)
 
 
 def block_totals(run: Run) -> Mapping[str, Mapping[int, float]]:
-    """Reads build and trace of each cell of a run, by its name, in each block, if it has any."""
+    """Reads the total build and trace time per cell name and block.
+
+    Returns {} for a run without blocks or without an analysis.
+    """
     known = in_blocks(run.rows) and has_analysis(run.directory)
     return read_analysis(run.directory).block_totals if known else {}
 
@@ -323,7 +326,7 @@ def read_analysis(directory: Path) -> Analysis:
         return _analysis(source)
     except (KeyError, TypeError, AttributeError) as error:
         raise Problem(
-            f"{path}: is not an analysis of this version ({type(error).__name__}: {error}); "
+            f"{path}: not an analysis by this version ({type(error).__name__}: {error}); "
             f"write it again: beambench analyze --write {os.fspath(directory)}"
         ) from None
 

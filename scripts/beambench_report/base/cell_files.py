@@ -37,24 +37,25 @@ class CellFile:
     message: str
     examples: tuple[Example, ...]
     total_ms: Mapping[int, float]
-    """Build or update, and trace, by block: from the block's fastest undisturbed repetition.
+    """The time of build or update and trace in the fastest undisturbed repetition, by block.
 
-    In records of one process, of each repetition by the round in which it had its turn.
+    In records of one process: in each repetition, by round. The same applies to the fields below.
     """
     trace_ms: Mapping[int, float] = field(default_factory=dict)
-    """The first trace after each build, in the same way."""
+    """The time of the first trace after each build."""
     warm_ms: Mapping[int, float] = field(default_factory=dict)
-    """The second trace of the same structure, in the blocks or rounds that had one."""
+    """The time of a second trace of the same structure, in blocks or rounds that had one."""
     clock_ghz: Mapping[int, float] = field(default_factory=dict)
-    """The clock's rate during each, if it was read."""
+    """The clock rate during the repetition, if it was read."""
     in_blocks: bool = False
 
     def ratio(
         self, times: str, base: "CellFile", shares: tuple[float, float] = (0.0, 0.0)
     ) -> Ratio | None:
-        """Returns one of its times over that of another cell, paired; None if none can be paired.
+        """Returns the paired ratio of this cell to `base`; None if no times can be paired.
 
-        `shares` are subtracted from the times of each, in milliseconds.
+        `times` names the field to compare. `shares`, in milliseconds, are subtracted from the times
+        of this cell and of `base`.
         """
         over, under = (
             {turn: ms - less for turn, ms in getattr(one, times).items()}
@@ -70,7 +71,7 @@ def identity(row: Mapping[str, object]) -> Identity:
 
 
 def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
-    """Reads every finished or repeated cell of the log; empty without a log."""
+    """Reads the cells of the log that are finished or have a verdict; empty without a log."""
     return {
         identity(cell.facts): _cell_file(cell)
         for cell in logged_cells(directory)
@@ -79,7 +80,7 @@ def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
 
 
 def repetitions_of(cell: LoggedCell) -> list[Repetition]:
-    """Returns the repetitions of a cell whose times count; empty for others."""
+    """Returns the repetitions of a cell if its times count, otherwise an empty list."""
     return cell.repetitions if cell.verdict in TIMED_VERDICTS else []
 
 
@@ -91,7 +92,7 @@ def name_of(row: Mapping[str, object]) -> str:
 
 
 def median_of(row: Mapping[str, object], phase: str) -> Median:
-    """Returns the time of a phase, "total" or "trace", that is compared, with its interval.
+    """Returns the time to compare for a phase, "total" or "trace", with its interval.
 
     It is the mean over a row's blocks; in records of one process, the median of the repetitions.
     """
@@ -106,7 +107,7 @@ def ratio_of(
     base: Mapping[str, object],
     files: Mapping[Identity, CellFile],
 ) -> Ratio:
-    """Returns a row's time over another one's, paired if the repetitions of both are known."""
+    """Returns a row's time over that of `base`, paired if the repetitions of both are known."""
     over, under = (files.get(identity(one)) for one in (row, base))
     paired = over.ratio(f"{phase}_ms", under) if over and under else None
     return paired or unpaired_ratio_of(phase, row, base)
@@ -115,7 +116,7 @@ def ratio_of(
 def unpaired_ratio_of(
     phase: Literal["total", "trace"], row: Mapping[str, object], base: Mapping[str, object]
 ) -> Ratio:
-    """Returns a row's time over that of another one that was not measured with it."""
+    """Returns a row's time over that of `base`, if they were not measured together."""
     return unpaired_ratio(median_of(row, phase), median_of(base, phase))
 
 
@@ -147,7 +148,7 @@ def _fastest_of_blocks(repetitions: Sequence[Repetition]) -> list[Repetition]:
 
 
 def _example(text: str) -> Example:
-    """Splits off the command, which has its own line: `  replay beambench trace ...`."""
+    """Separates the words from the command's line: `  replay beambench trace ...`."""
     lines = text.rstrip().splitlines()
     replays = [line.strip() for line in lines if line.lstrip().startswith("replay ")]
     words = [line for line in lines if line.strip() not in replays]

@@ -41,21 +41,21 @@ class Column:
 
     @property
     def is_number(self) -> bool:
-        """Are its values numbers?"""
+        """Whether the values are numbers."""
         return self.type in ("integer", "number")
 
     @property
     def is_pattern(self) -> bool:
-        """Does it stand for many columns, such as all counters of families of structures?"""
+        """Whether the name is a pattern for many columns, such as the columns of counters."""
         return "<" in self.name
 
     @property
     def is_of_a_kind(self) -> bool:
-        """Is it about one kind of the rays of a whole picture?"""
+        """Whether the column describes one kind of rays of a whole picture."""
         return "<kind>" in self.name
 
     def is_that(self, name: str) -> bool:
-        """Is this the entry of a column of a file?"""
+        """Returns whether this is the entry for the column `name` of a file."""
         if not self.is_pattern:
             return name == self.name
         pattern = self.name.replace("<kind>", _KINDS).replace("<counter>", "[a-z_]+")
@@ -64,7 +64,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Group:
-    """Columns that belong together, in their order."""
+    """Related columns, in their order."""
 
     name: str
     title: str
@@ -84,10 +84,10 @@ class Dictionary:
         return tuple(column for group in self.groups for column in group.columns)
 
     def find(self, name: str) -> Column | None:
-        """Returns the entry of a file's column: that of its name, or the narrowest pattern."""
+        """Returns the entry for a file's column: the one with its name or the narrowest pattern."""
         if name not in self._found:
             found = [column for column in self.columns if column.is_that(name)]
-            # A pattern with the kind of rays is narrower than that of any counter.
+            # A pattern with `<kind>` is narrower than the pattern of all counters.
             narrowest = min(
                 found, key=lambda one: (one.is_pattern, not one.is_of_a_kind), default=None
             )
@@ -96,7 +96,7 @@ class Dictionary:
 
     @cached_property
     def _found(self) -> dict[str, Column | None]:
-        """Results of `find`: every reader needs the same columns."""
+        """Caches the results of `find`, because every reader needs the same columns."""
         return {}
 
 
@@ -113,7 +113,7 @@ def dictionary() -> Dictionary:
 
 
 _READING = (
-    "In pandas (readers that take `null` for a missing value lose that structure's rows):",
+    "In pandas (a reader that takes `null` for a missing value loses the rows of that structure):",
     "",
     "```python",
     "import matplotlib.pyplot as plt",
@@ -136,10 +136,10 @@ def as_markdown(known: Dictionary) -> str:
     introduction = (
         f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
         "one set of parameters, tracing one set of rays. The file is UTF-8 with one header row "
-        "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name. "
-        "A text that begins with `=`, `+`, `-` or `@`, which a spreadsheet would take for a "
-        "formula, or with an apostrophe is preceded by an apostrophe. In file names, `\\x1b` is an "
-        "unprintable byte, and two backslashes stand for one."
+        "and quotes as in RFC 4180. An empty field means not measured; `null` is the name of a "
+        "structure. A string that begins with `=`, `+`, `-` or `@`, which a spreadsheet would take "
+        "for a formula, or with an apostrophe is preceded by an apostrophe. In file names, a code "
+        "such as `\\x1b` stands for an unprintable byte, and two backslashes stand for one."
     )
     lines = [
         "# The columns of results.csv",
@@ -166,9 +166,9 @@ def as_markdown(known: Dictionary) -> str:
         "",
         "## Counters of single structures",
         "",
-        "They are printed by `beambench list --counters`. Each has a column, `<counter>_per_ray`;",
-        "multiplied by `rays` it is the count. [accel/beam](../accel/beam/README.md) explains the",
-        "counters of the beams.",
+        "`beambench list --counters` prints these counters. Each has a column,",
+        "`<counter>_per_ray`; its value times `rays` is the count.",
+        "[accel/beam](../accel/beam/README.md) explains the counters of the beams.",
         "",
         *markdown_table(("structure", "counter", "meaning"), counters),
     ]

@@ -27,7 +27,7 @@ def add_command(
 
 
 def run_command(parser: argparse.ArgumentParser, arguments: list[str] | None) -> int:
-    """Runs the command in `arguments` (default: those of the process).
+    """Runs the command in `arguments` (default: the arguments of the process).
 
     Returns the exit code: 2 for invalid arguments or input.
     """
@@ -47,18 +47,18 @@ def run_command(parser: argparse.ArgumentParser, arguments: list[str] | None) ->
 
 
 class ScriptParser(argparse.ArgumentParser):
-    """The arguments of a program of scripts/, which prints its own --help."""
+    """An argument parser for a program in scripts/ that prints its own --help."""
 
     def __init__(self, name: str) -> None:
         """Creates a parser without arguments."""
         super().__init__(f"scripts/{name}", add_help=False, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
-        """Raises Problem."""
+        """Raises Problem with the message."""
         raise Problem(message)
 
     def run(self, work: Callable[[Options], int], arguments: list[str], interrupted: str) -> int:
-        """Returns the exit code: that of `work`, 2 for invalid input, 130 after Ctrl-C.
+        """Runs `work`; returns its exit code, 2 for invalid input, or 130 after Ctrl-C.
 
         After Ctrl-C it prints the sentence `interrupted`.
         """

@@ -1,4 +1,4 @@
-"""Writes and reads tables as CSV files, without texts that a spreadsheet takes for formulas."""
+"""Formats tables as CSV and reads them; escapes strings that spreadsheets take for formulas."""
 
 import pandas as pd
 from pandas.api.types import is_string_dtype
@@ -7,7 +7,7 @@ from beambench_report.base.formulas import guarded
 
 
 def unguarded(table: pd.DataFrame) -> pd.DataFrame:
-    """Reads a table, with its texts as they were before they were written."""
+    """Returns a table that was read, with its strings as they were before `csv_of`."""
     texts = [name for name in table if is_string_dtype(table[name])]
     plain = {name: table[name].str.removeprefix("'") for name in texts}
     return table.assign(**plain)

@@ -7,8 +7,8 @@ noisy environments, 2016, section III). Therefore only the fastest few repetitio
 They are chosen by their wall time, and their cost is counted in clock cycles, since the clock of
 two runs may differ. Choosing by cycles would be wrong: the clock's rate is read before and after a
 repetition, and where a disturbance coincides with a reading, there are too few cycles. On a
-disturbed machine, the least cycles of a second run differed from those of the first several times
-as much as the cycles of the fastest repetitions did.
+disturbed machine, the least cycles of two runs differed several times as much as the cycles of
+their fastest repetitions.
 """
 
 from collections.abc import Sequence
@@ -30,9 +30,9 @@ class Fastest:
     trace_ms: float
     mcycles: float
     error: float
-    """The relative difference to expect from as many further repetitions of this process.
+    """The relative difference to expect if this process made as many repetitions again.
 
-    NaN for fewer than four repetitions, of which only the fastest counts. The bound depends on the
+    NaN for fewer than four repetitions; then only the fastest counts. The bound depends on the
     distribution: results/published/thesis states how often a second run was within it.
     """
 
@@ -41,11 +41,11 @@ _UNKNOWN = Fastest(nan, nan, nan, nan)
 
 
 def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
-    """Returns the fastest repetitions of one cell over the files of several runs.
+    """Returns the figures of one cell from its fastest repetitions in the files of several runs.
 
     None if no clock rate is known. The error is the range of the fastest repetitions' cycles or of
-    their wall times, whichever is less: a misread clock widens only the former, a clock that
-    changed only the latter.
+    their wall times, whichever is less: a misread clock widens only the former, a clock whose
+    rate changed only the latter.
     """
     repetitions = sorted(
         (ms, ms * file.clock_ghz[turn], file.trace_ms[turn])
@@ -65,19 +65,19 @@ def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
 def _rank(count: int) -> int | None:
     """Returns the number of repetitions that count.
 
-    It is the least rank that an equal number of further repetitions all exceed with a probability
-    of at most 2.5%: None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum
-    of the harness).
+    It is the least rank whose time an equal number of further repetitions all exceed with a
+    probability of at most 2.5%: None for fewer than four repetitions, five for six to twenty-four
+    (repeat_spread_of_minimum in the harness).
     """
     exceeded = ((rank, comb(2 * count - rank, count)) for rank in range(1, count + 1))
     return next((rank for rank, ways in exceeded if ways <= 0.025 * comb(2 * count, count)), None)
 
 
 def with_fastest(runs: Sequence[Run]) -> list[pd.DataFrame]:
-    """Returns the rows of each run with `fastest_ms` and so on: the fields of Fastest.
+    """Returns the rows of each run with the fields of Fastest as columns, such as `fastest_ms`.
 
-    They are NaN if the repetitions of a row are not known. For a cell that several runs measured,
-    all repetitions count, in each of its rows.
+    They are NaN if the repetitions of a row are not known. If several runs measured a cell, its
+    rows have the same figures, from the repetitions of all these runs.
     """
     files: dict[Identity, list[CellFile]] = {}
     for run in runs:

@@ -1,8 +1,8 @@
-"""Figures of page width, their captions and styles, and saving them.
+"""Makes figures of page width with captions and styles, and saves them.
 
-Each structure has one color, the same in every plot of every run: those of Okabe and Ito ("Color
-Universal Design", 2008), which color-blind readers can distinguish, with a darkened yellow that is
-visible on white, and two grays. Variants of one structure share its color and differ in marker and
+Each structure has one color, the same in every plot of every run. Many are from Okabe and Ito
+("Color Universal Design", 2008), whose colors color-blind readers can distinguish; their yellow is
+darkened to be visible on white. Variants of one structure share its color and differ in marker and
 dashes. Each color has a variant for dark pages (`base.palette`).
 """
 
@@ -25,14 +25,14 @@ from beambench_report.base.svg import compact
 
 PAGE_WIDTH = 7.2  # inches
 DPI = 200
-"""The resolution of PNG files; widths of texts were measured at this one."""
+"""The resolution of PNG files; text widths are measured at this resolution."""
 _LINE_HEIGHT = 0.16  # inches, of a caption's line
 _CAPTION_COLUMNS = 118  # characters that fit the page width
-_MOST_WRONG = 6  # contenders that a caption names
+_MOST_WRONG = 6  # the most contenders that a caption names
 
 _STYLE = {
     "font.size": 9,
-    "font.sans-serif": ["DejaVu Sans"],  # the list of all that matplotlib knows bloats an SVG
+    "font.sans-serif": ["DejaVu Sans"],  # matplotlib's own list of fonts bloats an SVG
     "text.color": INK,
     "axes.edgecolor": SOFT,
     "axes.labelcolor": INK,
@@ -59,7 +59,7 @@ class Plot:
     figure: Figure
     summary: str
     view: str = ""
-    """The title of the view that it shows; empty if it shows all of them."""
+    """The title of the view that the figure shows; empty if it shows several views."""
 
 
 def house_style() -> AbstractContextManager[None]:
@@ -80,14 +80,14 @@ def new_figure(
 
 
 def legend_below(figure: Figure, columns: int, **handles: object) -> None:
-    """Draws a legend of several columns under the panels, of all lines if no handles are given."""
+    """Draws a legend with several columns below the panels; without handles, for all lines."""
     figure.legend(loc="outside lower center", ncols=columns, frameon=False, fontsize=8, **handles)
 
 
 def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool) -> None:
-    """Writes under a figure its description, the source of its data and the wrong contenders.
+    """Writes below a figure its description, its data source and the unverified contenders.
 
-    A figure of times leaves the latter out; counters and memory are shown nevertheless.
+    Figures of times omit these contenders; figures of counters and memory show them.
     """
     lines = [explanation, _source(rows)]
     if wrong := untimed(rows):
@@ -98,7 +98,7 @@ def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool
 
 
 def write_below(figure: Figure, paragraphs: Iterable[str]) -> None:
-    """Writes small text under a figure, and makes the figure taller to fit it."""
+    """Writes small text below a figure, and makes the figure taller to fit the text."""
     wrapped = "\n".join(textwrap.fill(text, _CAPTION_COLUMNS) for text in paragraphs)
     figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color=SOFT)
     width, height = figure.get_size_inches()
@@ -113,7 +113,7 @@ def untimed(rows: pd.DataFrame) -> list[str]:
 
 
 def write_plot(plot: Plot, directory: Path) -> list[Path]:
-    """Writes the figure as PNG and as SVG; the SVG shows the texts passed to `svg.hover`."""
+    """Writes the figure as PNG and as SVG; the SVG has the hover titles set by `svg.hover`."""
 
     return [
         write_whole(
@@ -127,7 +127,7 @@ def write_plot(plot: Plot, directory: Path) -> list[Path]:
 def svg_of(plot: Plot) -> str:
     """Returns the text of the figure's SVG file."""
     drawn = io.StringIO()
-    # Derived from the stem, so that no two plots on one page share ids.
+    # The salt is derived from the stem, so that no two plots on one page share ids.
     with mpl.rc_context({"svg.hashsalt": f"beambench-{plot.stem}"}):
         plot.figure.savefig(drawn, format="svg", dpi=DPI, metadata={"Date": None})
     return compact(drawn.getvalue())
@@ -143,7 +143,7 @@ def _source(rows: pd.DataFrame) -> str:
     )
 
 
-# From Okabe and Ito, for lines that do not represent structures.
+# Colors from Okabe and Ito, for lines that do not represent structures.
 LINE_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 MARKERS = "osD^vP*X<>"
 DASHES = ("-", "--", "-.", ":")
@@ -159,7 +159,7 @@ class Look:
 
     @property
     def line(self) -> dict[str, object]:
-        """Style in which matplotlib draws a line with markers."""
+        """Returns the style of a line with markers, for matplotlib."""
         return {
             **{"color": self.color, "linestyle": self.dashes, "linewidth": 1.2},
             **{"marker": self.marker, "markersize": 4.5},

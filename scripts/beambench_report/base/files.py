@@ -1,4 +1,4 @@
-"""Errors, running programs, and reading and writing files.
+"""Reports problems, runs programs, and reads and writes files.
 
 Files are written under a temporary name and renamed, so they are never incomplete. Symbolic links
 stay links: their targets are replaced. Devices and pipes are written directly.
@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[3]
 """The top of the repository."""
 
 
-class Problem(Exception):  # noqa: N818 (invalid arguments are no programming error)
+class Problem(Exception):  # noqa: N818 (invalid arguments are not programming errors)
     """One sentence for the user: what is wrong with which file, and what to do."""
 
 
@@ -51,7 +51,7 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Writes a text atomically; returns `path`."""
+    """Writes text atomically; returns `path`."""
     return write_whole(path, lambda pending: pending.write_text(text, "utf-8"))
 
 
@@ -71,20 +71,19 @@ def read_table(
     return unguarded(rows)
 
 
-def load_json(path: Path) -> Any:  # noqa: ANN401 (as of json.loads)
+def load_json(path: Path) -> Any:  # noqa: ANN401 (like json.loads)
     """Returns the contents of a JSON file; a byte order mark is skipped.
 
-    Raises ValueError if the file is not JSON or nests too deep for a parser, OSError if it cannot
-    be read.
+    Raises ValueError if the file is not JSON or is nested too deeply, OSError if it cannot be read.
     """
     try:
         return json.loads(path.read_text("utf-8-sig"))
     except RecursionError:
-        raise ValueError("its lists and objects nest too deep") from None
+        raise ValueError("its lists and objects are nested too deeply") from None
 
 
 def read_json(path: Path) -> object:
-    """Returns the contents of a JSON file; None without a file.
+    """Returns the contents of a JSON file; None if there is no file.
 
     Raises Problem if it is not JSON.
     """
@@ -104,7 +103,7 @@ def run_in_foreground(
     pass_fds: Collection[int] = (),
     output: int | IO[bytes] = subprocess.DEVNULL,
 ) -> int:
-    """Runs a program, by default without its standard output; returns its exit code.
+    """Runs a program and returns its exit code; by default, its standard output is discarded.
 
     SIGTERM is passed on to the program, and a keyboard interrupt reaches it directly. After either,
     the program is waited for, so that it can end cleanly. Raises Problem if it cannot be run.

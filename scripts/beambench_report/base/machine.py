@@ -71,12 +71,12 @@ def read_description(directory: Path) -> str:
 def _read_object(path: Path) -> dict | None:
     source = read_json(path)
     if not isinstance(source, dict | None):
-        raise Problem(f"{path}: holds no JSON object")
+        raise Problem(f"{path}: does not hold a JSON object")
     return source
 
 
 def _facts(source: dict) -> list[Facts]:
-    """Returns plain members first, then a list for each group of them."""
+    """Returns one list of the plain members, then a list for each group of members."""
     plain = Facts("Run")
     groups = [plain]
     for name, value in source.items():
@@ -141,10 +141,10 @@ class Machine:
     """The processor; empty if the run has no manifest."""
 
     def differs_from(self, other: Machine) -> bool:
-        """Are they different machines, as far as both are known?
+        """Returns whether the machines differ, as far as both are known.
 
-        Several machines differ even from themselves: another run of theirs may have measured a cell
-        on a different one.
+        Several machines differ even from the same several machines: another run may have measured
+        a cell on a different one of them.
         """
         if max(len(self.ids), len(other.ids)) > 1:
             return True
@@ -152,21 +152,21 @@ class Machine:
         return self.ids != other.ids or bool(both_known and self.processor != other.processor)
 
     def __str__(self) -> str:
-        """Formats it for people."""
+        """Formats the ids and, if known, the processor."""
         ids = " and ".join(self.ids)
         return f"{ids} ({self.processor})" if self.processor else ids
 
 
 def require_one_machine(rows: pd.DataFrame, folder: Path) -> None:
-    """Raises Problem if the rows of FOLDER are of several machines.
+    """Raises Problem if the rows of FOLDER are from several machines.
 
-    It protects tables that divide the times of different views.
+    Tables that divide times of different views need the rows of one machine.
     """
     ids = sorted(set(rows["machine_id"]))
     if len(ids) > 1:
         raise Problem(
-            f"{folder}: its rows are of {len(ids)} machines ({', '.join(ids)}), and here the times "
-            "of different scenes and resolutions are compared; measure the sweep on one machine"
+            f"{folder}: its rows are from {len(ids)} machines ({', '.join(ids)}), but this "
+            "compares times of different scenes and resolutions; measure the sweep on one machine"
         )
 
 

@@ -11,7 +11,7 @@ from beambench.analysis import name_cells, without_order
 
 # Lists the plots of a run for programs, as plots/README.md does for people.
 PLOT_INDEX = "index.json"
-# Flags: are edges watertight, and are the backs of closed solids left out?
+# Flags that change the hits: watertight edges, and omitted backs of closed solids.
 _CHANGE_HITS = ("robust", "backface_culling")
 _NAMED = ("scene", "camera", "structure", "parameters", "samples", "ray_kind")
 
@@ -19,10 +19,10 @@ _NAMED = ("scene", "camera", "structure", "parameters", "samples", "ray_kind")
 def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     """Returns the rows with the names of their cells in plots and pages.
 
-    `contender`: the structure, with those parameters that differ between its rows. `subject`: what
-    the rays see, the scene and anything else that varies. `view`: the same on one machine, within
-    which contenders are compared. `kind`: the rays, in any order. `is_tuned`: was it the best of
-    several parameter sets?
+    `contender`: the structure, with the parameters that differ between its rows. `subject`: the
+    scene, with camera, samples and kind of rays if these vary. `view`: the subject on one machine;
+    contenders are compared within a view. `kind`: the kind of rays, whatever their order.
+    `is_tuned`: whether the row is the best of several parameter sets.
     """
     facts = rows[list(_NAMED)].assign(
         samples=rows["samples"].fillna(0).astype(int),
@@ -35,7 +35,7 @@ def with_names(rows: pd.DataFrame) -> pd.DataFrame:
     found = pd.DataFrame(names, columns=["contender", "subject", "view"], index=rows.index)
     found["is_tuned"] = facts["parameter_sets"] > 1
     found["kind"] = rows["ray_kind"].map(without_order)
-    return pd.concat([rows, found], axis="columns").copy()  # defragmented: it had many columns
+    return pd.concat([rows, found], axis="columns").copy()  # defragments it
 
 
 def machine_label(machine_id: str) -> str:
@@ -44,10 +44,10 @@ def machine_label(machine_id: str) -> str:
 
 
 def path_of_name(name: str) -> str:
-    """Returns the path of a file that records name like this: `\x1b` is a byte, two backslashes are
-    one.
+    """Returns the path for a file name in a record.
 
-    Names of files are made by `name_of_path` (scenes/base/printable.hpp).
+    `name_of_path` (scenes/base/printable.hpp) makes such names: a code such as `\x1b` stands for a
+    byte, two backslashes stand for one.
     """
     pieces = re.split(rb"\\(\\|x[0-9a-f]{2})", name.encode())
     for i in range(1, len(pieces), 2):
@@ -66,14 +66,14 @@ def file_stems(titles: Iterable[str]) -> dict[str, str]:
 
 
 def parameter_items(text: str) -> dict[str, str]:
-    """Formats the parameters of a row: `name=value`, separated by commas."""
+    """Parses the parameters of a row: `name=value`, separated by commas."""
     return dict(item.split("=", 1) for item in text.split(",") if "=" in item)
 
 
 def brief_name(contender: str) -> str:
-    """Returns a contender's name in crowded plots: `sah-bvh lbvh reinsertion`, with values only.
+    """Returns a contender's name for crowded plots, mostly values: `sah-bvh lbvh reinsertion`.
 
-    Flags that are not set are left out, except those that change which hits are found; a number
+    Flags that are not set are left out, except flags that change which hits are found. A number
     keeps the name of its parameter.
     """
     structure, *items = contender.split(" ")
@@ -90,6 +90,6 @@ def brief_name(contender: str) -> str:
 
 
 def varying_parameters(texts: Iterable[str]) -> set[str]:
-    """Returns the names of those parameters that differ between rows of one structure."""
+    """Returns the names of the parameters that differ between rows of one structure."""
     items = [parameter_items(text) for text in texts]
     return {name for one in items for name in one if len({own.get(name, "") for own in items}) > 1}

@@ -15,7 +15,7 @@ PAPER = "#ffffff"
 
 @dataclass(frozen=True)
 class Tint:
-    """One color: the name of its CSS variable, on white and on #161616."""
+    """One color: the name of its CSS variable, its value on white, and its value on #161616."""
 
     name: str
     light: str
@@ -28,7 +28,7 @@ _PAGE = (
     Tint("grid", GRID, "#3a4145"),
     Tint("card", PAPER, "#1c2023"),
 )
-# Embree's is not quite black: matplotlib omits a black fill from an SVG, so a page could not
+# Embree's color is not quite black: matplotlib omits a black fill from an SVG, so a page could not
 # replace it.
 _STRUCTURES = (
     Tint("embree", "#0a0a0a", "#ffffff"),
@@ -50,7 +50,7 @@ _STRUCTURES = (
     Tint("z-buffer", "#6b4a2b", "#c9a27a"),
     Tint("polygon-beam", "#c2185b", "#ff4fa3"),
 )
-# For plug-ins, so that none is taken for a structure of the project.
+# Colors for plug-ins, so that no plug-in is mistaken for a structure of the project.
 _SPARE = (
     Tint("plug-in-1", "#6a3d9a", "#b08be0"),
     Tint("plug-in-2", "#8c510a", "#c98f4e"),
@@ -59,7 +59,7 @@ _SPARE = (
     Tint("plug-in-5", "#c2278f", "#ff7ad1"),
 )
 SCENE_COLORS = tuple(tint.light for tint in _SPARE)
-"""For plots whose lines are scenes: no structure of the project has these colors."""
+"""Colors for plots whose lines are scenes; no structure of the project has these colors."""
 TINTS = (*_PAGE, *_STRUCTURES, *_SPARE)
 
 
@@ -70,11 +70,11 @@ def structure_tint(structure: str) -> Tint:
 
 
 def structure_color(structure: str) -> str:
-    """Returns the color of a structure on white."""
+    """Returns a structure's color for white backgrounds."""
     return structure_tint(structure).light
 
 
 def css_color(structure: str) -> str:
-    """Returns the CSS variable of the color for pages, which redefine it if they are dark."""
+    """Returns the CSS variable of a structure's color; dark pages redefine the variable."""
     tint = structure_tint(structure)
     return f"var(--{tint.name}, {tint.light})"

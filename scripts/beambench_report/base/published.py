@@ -12,7 +12,7 @@ COARSEST, FINEST = RESOLUTIONS[0], RESOLUTIONS[-1]
 
 
 def rays(resolution: str) -> int:
-    """Returns the rays of an image with one sample per pixel."""
+    """Returns the number of rays of an image with one sample per pixel."""
     width, height = resolution.split("x")
     return int(width) * int(height)
 

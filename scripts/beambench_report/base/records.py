@@ -28,8 +28,8 @@ OK, BASELINE = TIMED_VERDICTS = ("ok", "baseline")
 ERROR = "error"  # the structure could not be built
 REFERENCES = ("null", "exhaustive")
 """Structures that do not compete: one finds nothing, one tests everything."""
-NO_RAYS = "no_rays"  # the scene has none of the kind: nothing was measured, and nothing is wrong
-UNSUPPORTED = "unsupported"  # the structure does not take these rays or primitives: as NO_RAYS
+NO_RAYS = "no_rays"  # the scene has no rays of the kind: nothing was measured or wrong
+UNSUPPORTED = "unsupported"  # the structure does not support these rays or primitives
 FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS, UNSUPPORTED)
 
 
@@ -37,8 +37,8 @@ FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS, UNSUPPORTED)
 class Run:
     """One run: a row per cell, as in results.csv, and the names that plots and pages use.
 
-    Columns added to those of the file: those of `with_names`, and `timed` (do the row's times
-    count?).
+    Besides the columns of the file there are the columns of `with_names` and `timed`: whether the
+    row's times count.
     """
 
     directory: Path
@@ -56,7 +56,7 @@ class Run:
 
     @property
     def counters_by_kind(self) -> list[str]:
-        """Returns the counters of whole pictures that concern one kind of their rays."""
+        """Returns the counter columns for single kinds of rays of whole pictures."""
         return self._counters(of_a_kind=True)
 
     def _counters(self, *, of_a_kind: bool) -> list[str]:
@@ -71,18 +71,18 @@ class Run:
         return self.rows[self.rows["view"] == title]
 
     def finest(self, title: str) -> pd.DataFrame:
-        """Returns the rows of one view at its `finest_rays`."""
+        """Returns the rows of one view with its `finest_rays`."""
         rows = self.view(title)
         return rows[rows["rays"] == finest_rays(rows)]
 
 
 def in_blocks(rows: pd.DataFrame) -> bool:
-    """Was the run measured in blocks? Older runs are medians of one process."""
+    """Returns whether the run was measured in blocks; older runs are medians of one process."""
     return "blocks" in rows and bool(rows["blocks"].notna().any())
 
 
 def finest_rays(rows: pd.DataFrame) -> float:
-    """Returns the highest number of rays that two contenders have; with one contender, its highest.
+    """Returns the highest ray count of at least two contenders; with one contender, its highest.
 
     In an interrupted run, the last resolution may have only one cell.
     """
@@ -112,7 +112,7 @@ def read_run(directory: Path) -> Run:
 
 @lru_cache(maxsize=256)
 def _known(path: Path, *_status: int) -> pd.DataFrame:
-    """Returns the rows of an unchanged file, cached: the published texts share many."""
+    """Returns the rows of a file, cached while it is unchanged: published texts share files."""
     return _read(path)
 
 
@@ -126,7 +126,7 @@ def _read(path: Path) -> pd.DataFrame:
             "was it written by another version of beambench?"
         )
     if rows.empty:
-        raise Problem(f"{path}: holds no row; the run was cut off before its first cell ended")
+        raise Problem(f"{path}: has no rows; the run was cut off before its first cell ended")
 
     for name in rows.columns:
         column = dictionary().find(name)
@@ -171,7 +171,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
 
 
 def _require_version(rows: pd.DataFrame, path: Path) -> None:
-    """Refuses other versions: guessing the meaning of their columns could be silently wrong."""
+    """Rejects other versions: guessing the meaning of their columns could be silently wrong."""
     known = dictionary().schema_version
     if VERSION_COLUMN not in rows:
         raise Problem(
@@ -184,7 +184,7 @@ def _require_version(rows: pd.DataFrame, path: Path) -> None:
     if len(others) > 0:
         raise Problem(
             f"{path}, row {others[0] + 2}: {VERSION_COLUMN} is "
-            f"'{rows[VERSION_COLUMN][others[0]]}', and this reads versions 1 to {known}; use "
+            f"'{rows[VERSION_COLUMN][others[0]]}', but only versions 1 to {known} can be read; use "
             "the scripts of the commit that the row names, or measure anew"
         )
 

@@ -17,7 +17,7 @@ PACKED_LOG = "run.jsonl.gz"
 
 Event = dict[str, object]
 Repetition = dict[str, float]
-"""One repetition, with a member for each figure in the log; `round` is its turn."""
+"""One repetition, with a member for each figure in the log; `round` numbers its turn."""
 
 
 @dataclass
@@ -34,7 +34,7 @@ class LoggedCell:
 
 
 def has_log(run: Path) -> bool:
-    """Does this folder contain the log of a run, compressed or not?"""
+    """Returns whether this folder contains the log of a run, compressed or not."""
     return _log_in(run).is_file()
 
 
@@ -53,7 +53,7 @@ def logged_cells(run: Path) -> list[LoggedCell]:
             _take(event, cells)
         except (KeyError, TypeError, ValueError) as error:
             raise Problem(
-                f"{place}: is no event of a run ({type(error).__name__}: {error}); measure it anew"
+                f"{place}: not an event of a run ({type(error).__name__}: {error}); measure it anew"
             ) from None
     return [cells[index] for index in sorted(cells)]
 
@@ -70,7 +70,7 @@ def _events(run: Path) -> Iterator[tuple[str, Event]]:
             try:
                 yield f"{path}, line {number}", json.loads(line)
             except (ValueError, RecursionError) as error:
-                raise Problem(f"{path}, line {number}: is no JSON ({error})") from None
+                raise Problem(f"{path}, line {number}: is not JSON ({error})") from None
 
 
 def _take(event: Event, cells: dict[int, LoggedCell]) -> None:

@@ -1,4 +1,4 @@
-"""Additions to matplotlib's SVG (hover titles), and removal of what is not needed."""
+"""Adds hover titles to matplotlib's SVG, and removes what is not needed."""
 
 import re
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ _TITLE, _DEFS = f"{{{_SVG}}}title", f"{{{_SVG}}}defs"
 _HREF = f"{{{_XLINK}}}href"
 _HOVER = "hover:"
 _MANY_CORNERS = 10
-# All texts share one font family, and all lines end alike, so the root element states both once.
+# All texts share one font family and all lines the same ends: the root element states both once.
 _FAMILY = re.compile(r" *font-family: ([^;]*);")
 _ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt; font-family: {}"
 
@@ -50,7 +50,7 @@ def compact(svg: str) -> str:
 
 
 def _used_ids(root: Element) -> dict[str, str]:
-    """Returns the ids that are referenced, each with a short one."""
+    """Returns the ids that are referenced, each with a short replacement."""
 
     def used() -> Iterator[str]:
         for element in root.iter():
@@ -90,7 +90,7 @@ def _shorten(element: Element, used: dict[str, str]) -> None:
 
 
 def _share_markers(root: Element) -> None:
-    """Defines a marker once for all colors: each use states the color."""
+    """Defines each marker once for all colors; every use states its color."""
     first: dict[tuple[str | None, str | None], str] = {}
     same: dict[str, str] = {}
     for parent in list(root.iter(_G)):

@@ -1,1 +1,1 @@
-"""Tile beams against Embree's fastest mode on the same rays, with targets."""
+"""Compares tile beams with Embree's fastest mode on the same rays, and with targets."""

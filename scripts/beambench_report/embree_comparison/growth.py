@@ -1,4 +1,4 @@
-"""Times and ratios as scenes and images get finer, as small multiples."""
+"""Draws times and ratios against the sizes of scenes and images, as small multiples."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, dataclass
@@ -26,13 +26,13 @@ _PANEL_HEIGHT = 2.5  # inches
 _EMBREE, _TILE = "Embree's fastest mode", "tile-beam"
 _STRUCTURES = {_EMBREE: "embree", _TILE: "tile-beam"}
 _READING = "First traces after a build. Bars: 95% confidence intervals, where there are any."
-NO_BACKS = " No backs: tile-beam left out the backs of solids, which Embree cannot."
-_NEWEST = "An image that several runs measured is drawn once, by the newest of them."
+NO_BACKS = " No backs: tile-beam left out the backs of solids, which Embree cannot do."
+_NEWEST = "An image that several runs measured is drawn once, from the newest of them."
 
 
 @dataclass(frozen=True)
 class Axis:
-    """The quantity that grows: stem of its figures, name, and names of lines and ticks."""
+    """The quantity that grows: stem of its figures, its name, and names of lines and ticks."""
 
     stem: str
     name: str
@@ -58,7 +58,7 @@ PIXELS = Axis(
 
 
 def growth(found: Sequence[Pairing], axis: Axis) -> list[Plot]:
-    """Returns the figures of the lines with enough sizes: a row of two panels for each."""
+    """Returns the figures: a row of two panels for each line with enough sizes."""
     lines: dict[str, list[Pairing]] = {}
     for pair in sorted(found, key=axis.size):
         lines.setdefault(axis.line(pair), []).append(pair)
@@ -147,7 +147,7 @@ def _draw_line(
     look: Look,
     commits: Sequence[str],
 ) -> None:
-    """Draws points with their intervals, joined; those of the newest commit are filled."""
+    """Draws joined points with their intervals; points of the newest commit are filled."""
     sizes = [axis.size(pair) for pair in own]
     panel.plot(sizes, [value for value, *_ in figures], color=look.color, linewidth=1.1, zorder=2)
     for size, (_, low, high) in zip(sizes, figures, strict=True):

@@ -25,7 +25,7 @@ Row = dict[str, object]
 
 @dataclass(frozen=True)
 class Trace:
-    """A contender's times for the same rays, in ms, and the machine and settings."""
+    """A contender's times for one set of rays, in ms, and its instruction set."""
 
     contender: str
     first: Median
@@ -38,10 +38,10 @@ class Trace:
 
 @dataclass(frozen=True)
 class Pairing:
-    """Both contenders on the same rays, each with its faster order of a list.
+    """Both contenders on the same rays, each with the faster order if the rays are a list.
 
-    Ratios are Embree's time over that of tile beams, without builds. Times of whole pictures are
-    without shading.
+    Ratios are Embree's time over that of tile beams, without builds. Times of whole pictures
+    exclude shading.
     """
 
     kind: str
@@ -55,7 +55,7 @@ class Pairing:
     isa: str
     """The instruction set that both are limited to: `best`, or the parameter isa."""
     is_culled: bool
-    """Did tile beams skip the backs of solids? Embree does not know which surfaces are closed."""
+    """Whether tile beams skipped the backs of solids; Embree cannot tell closed surfaces."""
     modes: tuple[str, ...]
     """Embree's modes with correct hits, of which the fastest counts."""
     tile: Trace
@@ -75,10 +75,10 @@ class Pairing:
 
 
 def pairings(runs: Iterable[Run]) -> list[Pairing]:
-    """Returns all rays that both traced with correct hits, in the order of the rows.
+    """Returns a pairing for all rays that both traced with correct hits, in the order of the rows.
 
-    Rays with and without the backs of solids form two pairings; if several runs measured one of
-    these, the newest counts. Raises Problem for runs of several machines, whose ratios must not be
+    Traces with and without the backs of solids form two pairings. If several runs measured one of
+    them, the newest counts. Raises Problem for runs of several machines, whose ratios must not be
     mixed in one table.
     """
     found: dict[tuple, Pairing] = {}
@@ -90,8 +90,8 @@ def pairings(runs: Iterable[Run]) -> list[Pairing]:
     machines = dict.fromkeys(one.machine for one in found.values())
     if len(machines) > 1:
         raise Problem(
-            f"the runs are of {len(machines)} machines ({', '.join(machines)}), whose ratios must "
-            "not be mixed in one table; give the runs of one"
+            f"the runs are from {len(machines)} machines ({', '.join(machines)}), whose ratios "
+            "must not be mixed in one table; give the runs of one machine"
         )
     return list(found.values())
 
@@ -104,7 +104,7 @@ def headlines(found: Iterable[Pairing]) -> list[Pairing]:
 
 
 def in_one_way(found: Iterable[Pairing], size: Callable[[Pairing], int]) -> list[Pairing]:
-    """Returns the pairings with the backs of solids or those without, whichever have more sizes."""
+    """Returns the pairings with or without the backs of solids, whichever have more sizes."""
     drawn, culled = ([one for one in found if one.is_culled is way] for way in (False, True))
     return culled if len(set(map(size, culled))) > len(set(map(size, drawn))) else drawn
 
@@ -127,7 +127,7 @@ def _pairings_of(run: Run) -> list[Pairing]:
 
 
 def _image(row: Row) -> tuple:
-    """Returns the facts that both must share."""
+    """Returns the facts that both contenders must share."""
     names = ("kind", "scene", "camera", "width", "height", "samples", "machine_id", "run_id")
     own = parameter_items(row["parameters"])
     return (*(row[name] for name in names), own.get("isa", "best"))

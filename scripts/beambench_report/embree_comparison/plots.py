@@ -25,14 +25,14 @@ from beambench_report.run.panels import numbered
 _LINE_HEIGHT = 0.12  # inches, of one marker; a row has one for each resolution
 _PANEL_HEIGHT = 0.55  # inches that a panel needs beside its rows
 _TALLEST = 8.2  # inches of panels in one figure
-# The same for a resolution in every figure; the color is that of tile-beam, whose speed is drawn.
+# Each resolution has one marker in all figures. The color is tile-beam's, whose speed is drawn.
 _MARKERS = {"80x50": "v", "160x100": "s", SMALL: "o", MIDDLE: "D", LARGE: "^"}
 _COLOR = structure_color("tile-beam")
 _TARGET_HEIGHT = 0.4  # half the height of a target's tick, in lines
 _TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 _READING = (
-    "First traces after a build. Line: 95% confidence interval; hollow: too few repetitions for "
-    "one; tick in the line of a marker: its target. At 1 both are equally fast."
+    "First traces after a build. Line: 95% confidence interval; hollow: too few repetitions for an "
+    "interval; tick on the line of a marker: its target. At 1, both are equally fast."
 )
 _Panel = tuple[Group, Sequence[Pairing]]
 
@@ -82,7 +82,7 @@ def _height(panel: _Panel) -> float:
 def _figure(stem: str, isa: str, shown: Sequence[_Panel]) -> Plot:
     """Draws a panel per group, a row per scene, and a marker per resolution with its target's tick.
 
-    Each tick is on the line of its marker, so that none hides another.
+    Each tick is on the line of its marker, so that ticks do not hide each other.
     """
     heights = [_height(panel) for panel in shown]
     figure, panels = new_figure(sum(heights) + 0.3, len(shown), height_ratios=heights)
@@ -158,5 +158,5 @@ def _legend(figure: Figure, resolutions: Sequence[str]) -> None:
 
 
 def _resolutions(found: Sequence[Pairing]) -> list[str]:
-    """Returns the resolutions that exist, the coarsest first."""
+    """Returns the measured resolutions, the coarsest first."""
     return [size for size in _MARKERS if any(pair.resolution == size for pair in found)]

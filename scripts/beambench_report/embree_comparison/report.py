@@ -1,4 +1,4 @@
-"""The targets and what was measured, as Markdown with plots."""
+"""Writes the targets and the measured ratios as Markdown with plots."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -23,46 +23,46 @@ _COMPARED = (
     "Embree, a general ray tracer, on their common task. A ratio is the time of the fastest Embree "
     "mode with correct hits divided by the time of `tile-beam` for the same rays, in one run, on "
     "one thread, with the hits written to the same kind of buffer. Shadow rays and rays from "
-    "mirrors are lists in which the rays of a light or a mirror are marked as a pencil; both get "
-    "the same list."
+    "mirrors are lists in which the rays of a light or a mirror are marked as a pencil; both "
+    "contenders trace the same list."
 )
 _CULLED = (
     "**Backs of solids.** `tile-beam` can find out during the build which triangles form solids, "
-    "and skip their backs, which are invisible from outside. Embree does not know which surfaces "
-    "are closed, so the comparison is without this option (`backface_culling=false`), if that was "
-    "measured. Ratios marked `backs left out` only exist for `backface_culling=true`; they can "
-    "miss a target, but not meet it. In the last table, a row without the first ratio consists of "
-    "such figures."
+    "and skip their backs, which are invisible from outside. Embree has no information on closed "
+    "surfaces, so the comparison uses `backface_culling=false` wherever that was measured. A ratio "
+    "marked `backs left out` was measured with `backface_culling=true` only: it can miss a target, "
+    "but not meet it. In the last table, a row whose first ratio is empty has only such figures."
 )
 _TRACES = (
     "**Which trace.** The ratios in the tables, and the targets, are for the first trace after a "
-    "build. The last table also has the ratios of a second trace of the same structure, and the "
-    "tables of groups have their geometric mean. Neither includes the build, whose times are in "
-    "the last table."
+    "build. The last table also has the ratios for a second trace of the same structure, and the "
+    "tables of groups have the geometric means of these ratios. No ratio includes the build; build "
+    "times are in the last table."
 )
 _PAIRED = (
-    "The contenders take turns, and each ratio is that of their times in one block or, in records "
-    "of one process, in one round (paired). "
+    "The contenders take turns, and ratios compare their times in the same block or, in records of "
+    "one process, in the same round (paired). "
 )
 _NOT_PAIRED = (
-    "The single repetitions of these runs are missing, so the intervals combine those of both "
-    "times (not paired); they are usually wider than paired ones. "
+    "The individual repetitions of these runs are missing, so each interval combines the intervals "
+    "of both times (not paired); it is usually wider than a paired interval. "
 )
 _SOME_PAIRED = (
-    "If a run has its single repetitions, each ratio is that of the two times in one block or "
-    "round; otherwise it is that of the medians. "
+    "If a run has its individual repetitions, ratios compare the two times in the same block or "
+    "round; otherwise they compare the medians. "
 )
 _DECIDED = (
-    "Each ratio is followed by its target, which is `met` or `missed` if the whole interval lies "
-    "on one side of it, and otherwise `open`; without an interval it is `open`. A geometric mean "
-    "has an interval if each of its scenes has one, and a target if each scene was measured."
+    "Each ratio is followed by its target. The target is `met` or `missed` if the whole interval "
+    "lies on one side of it; otherwise, or without an interval, it is `open`. A geometric mean has "
+    "an interval if the ratio of each scene has one, and a target if each scene was measured."
 )
 
 
 def comparison(runs: Sequence[Path], file: Path | None = None) -> list[Path] | str:
-    """Writes the report on some runs: returns its text, or the files, FILE.md and its plots.
+    """Writes the report on some runs to FILE.md, with plots, and returns these files.
 
-    Raises Problem if a run cannot be read, or none has both contenders.
+    Without `file`, it returns the text of the report. Raises Problem if a run cannot be read, or if
+    no run has both contenders.
     """
     found = pairings(read_run(run) for run in runs)
     if not found:
@@ -98,7 +98,7 @@ def as_markdown(found: Sequence[Pairing], plots: Sequence[str] = ()) -> str:
 
 
 def _advantages(found: Sequence[Pairing]) -> str:
-    """Returns which side has SIMD, tuned parameters, sorted rays and closed solids."""
+    """Returns which side has SIMD, tuned parameters and sorted rays, and omits backs of solids."""
     simd = {bool(trace.isa) for one in found for trace in (one.tile, one.embree)}
     modes = [mode for one in found for mode in one.modes]
     most = max(len(one.modes) for one in found)
@@ -110,8 +110,8 @@ def _advantages(found: Sequence[Pairing]) -> str:
     return (
         f"**What each side has.** SIMD: {'both' if simd == {True} else 'see the sections'}. Tuned "
         f"parameters: Embree, {tuned}; `tile-beam` has its defaults. Sorted rays: "
-        f"{'both, where they are faster' if is_sorted else 'neither'}. Closed solids: "
-        f"{'neither' if has_backs else '`tile-beam`, where a table says so'}."
+        f"{'both, where sorting is faster' if is_sorted else 'neither'}. Omitted backs of solids: "
+        f"{'neither' if has_backs else '`tile-beam`, where a table states it'}."
     )
 
 
@@ -135,7 +135,7 @@ def _of_isa(isa: str, found: Sequence[Pairing]) -> Iterable[str]:
 
 
 def _instruction_sets(tile: str, embree: str) -> str:
-    """Returns Embree's name of an instruction set: Highway calls AVX512 AVX3."""
+    """Returns both instruction sets by Embree's names: Highway calls AVX-512 AVX3."""
     ours, theirs = (
         "AVX-512" if name.startswith(("AVX3", "AVX512")) else name or "?" for name in (tile, embree)
     )
@@ -206,8 +206,9 @@ def _text(ratio: Ratio, target: float | None = None) -> str:
 
 
 def _beside(value: float, target: float | None) -> str:
-    """Formats with three digits, or enough to show on which side of the target it is: 2.504 for
-    2.5.
+    """Formats with three digits, or with enough to show on which side of the target the value is.
+
+    With a target of 2.5, 2.504 has four digits.
     """
     text = number(value)
     digits = 3

@@ -1,4 +1,4 @@
-"""The ratios of each group of scenes with their targets, and the means."""
+"""The ratios and geometric means of each group of scenes, with their targets."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -15,9 +15,9 @@ class Result:
 
     ratio: Ratio
     target: float | None = None
-    """The target; None if there is none or a mean lacks a scene."""
+    """The target; None if no target is set, or if a scene is missing from the mean."""
     is_culled: bool = False
-    """Was `tile-beam` only measured without the backs of solids?"""
+    """Whether `tile-beam` was only measured without the backs of solids."""
     scenes: int = 1
 
     @property
@@ -34,18 +34,18 @@ class Result:
 
 @dataclass(frozen=True)
 class GroupResults:
-    """The results of one group: those of single scenes, and means, by resolution."""
+    """The results of one group by resolution, for single scenes and as means."""
 
     group: Group
     sizes: tuple[str, ...]
     scenes: Mapping[str, Mapping[str, Result]]
-    """The results by title of scene."""
+    """The results by scene title and resolution."""
     means: Mapping[str, Result]
     """The means of the first traces over the scenes."""
     second: Mapping[str, Result]
     """The means of the second traces."""
     culled: Mapping[str, Result]
-    """The means of first traces without the backs of solids, if `means` has them."""
+    """The means of first traces without the backs of solids, if `means` includes the backs."""
 
 
 def outcome(ratio: Ratio, target: float) -> str:
@@ -78,7 +78,7 @@ def outcomes_in_words(every: Sequence[GroupResults]) -> str:
 
 
 def results(found: Iterable[Pairing], isa: str) -> list[GroupResults]:
-    """Returns the groups of which anything was measured at that instruction set."""
+    """Returns the groups of which some scene was measured with that instruction set."""
     own = [one for one in found if one.isa == isa and one.samples == 1]
     every = (_of_group(group, own, part_of_targets(isa)) for group in groups())
     return [one for one in every if one.scenes]
@@ -118,9 +118,9 @@ def _means(
     ratio_of: Callable[[Pairing], Ratio | None],
     targets: Mapping[str, float] | None = None,
 ) -> dict[str, Result]:
-    """Returns the geometric mean at each resolution, over the scenes with backs if there are any.
+    """Returns the geometric mean at each resolution, with the backs of solids if that was measured.
 
-    A mean without some of the scenes has no target.
+    A mean over only some of the scenes has no target.
     """
     means = {}
     for size in group.targets if len(group.scenes) > 1 else ():

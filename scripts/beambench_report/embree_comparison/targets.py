@@ -10,8 +10,7 @@ SMALL, MIDDLE, LARGE = "320x200", "1280x1024", "3840x2160"
 _HELD_TO_LESS = 0.5
 
 SPHERES_ARE_WEAK = (
-    "Against a weak baseline: a sphere of Embree's is its point geometry, which does not gain from "
-    "AVX-512."
+    "The baseline is weak: Embree's spheres are point geometry, which does not gain from AVX-512."
 )
 
 
@@ -28,23 +27,23 @@ class Group:
     targets: Mapping[str, float]
     """The ratio that each scene should reach, by resolution."""
     mean_targets: Mapping[str, float]
-    """The same for the geometric mean of all scenes; empty if none is set."""
+    """The targets of the geometric mean of all scenes; empty if no target is set."""
     note: str = ""
     kind: str = PRIMARY
     """The kind of rays."""
 
     def holds(self, one: Pairing) -> bool:
-        """Is there a target for this?"""
+        """Returns whether this group has a target for the pairing."""
         return one.kind == self.kind and one.scene in self.scenes and one.resolution in self.targets
 
 
 def part_of_targets(isa: str) -> float:
-    """Half of the targets applies if both are limited to an instruction set below the best."""
+    """Returns the factor for targets: a half if both are limited to a lesser instruction set."""
     return 1.0 if isa == "best" else _HELD_TO_LESS
 
 
 def groups() -> list[Group]:
-    """The targets, in order. `escena1` of the thesis has the targets of the spheres."""
+    """Returns the groups, in order. The thesis's `escena1` is in the group of spheres."""
     return [
         Group(
             "Scenes of triangles",
@@ -58,8 +57,8 @@ def groups() -> list[Group]:
             },
             {SMALL: 4, MIDDLE: 8, LARGE: 12},
             {SMALL: 6, MIDDLE: 12, LARGE: 15},
-            "Three of the six scenes are the same bumpy sphere at different sizes, so that the "
-            "geometric mean gives it half the weight.",
+            "Three of the six scenes are the same bumpy sphere at different sizes, so this "
+            "sphere has half the weight in the geometric mean.",
         ),
         Group(
             "Scenes of spheres",
@@ -77,7 +76,7 @@ def groups() -> list[Group]:
             },
             {SMALL: 1, MIDDLE: 4, LARGE: 6},
             {},
-            f"Of polygons, but where spheres are named. {SPHERES_ARE_WEAK}",
+            f"Scenes of polygons, except where spheres are named. {SPHERES_ARE_WEAK}",
         ),
         Group(
             "Far more triangles than pixels",
@@ -95,15 +94,15 @@ def groups() -> list[Group]:
             },
             {SMALL: 1, MIDDLE: 1, LARGE: 1},
             {},
-            "Embree has the cones as its linear curves, which it closes and tests in single "
-            "precision, with directions of unit length.",
+            "In Embree, cones are linear curves, which it closes and tests in single precision, "
+            "with directions of unit length.",
         ),
         *_of_pencils(),
     ]
 
 
 def _of_pencils() -> list[Group]:
-    """Rays through one point other than the eye, and pictures, which contain such rays."""
+    """Returns the groups of rays through a point other than the eye, and of whole pictures."""
     return [
         Group(
             "Shadow rays, scenes of triangles",
@@ -155,8 +154,8 @@ def _of_pencils() -> list[Group]:
             },
             {SMALL: 1.5, MIDDLE: 2.5},
             {SMALL: 1.5, MIDDLE: 2.5},
-            "Primary, shadow, mirror and refracted rays, of which planar mirrors and lights make "
-            "pencils. The shading that is left out is measured once for each picture.",
+            "Primary, shadow, mirror and refracted rays; rays of planar mirrors and of lights form "
+            "pencils. The time of shading, measured once for each picture, is subtracted.",
             PICTURE,
         ),
     ]

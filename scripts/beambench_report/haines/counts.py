@@ -1,4 +1,4 @@
-"""Tests by kind of primitive, of whole pictures: Haines's, and ours by `beambench census`."""
+"""Counts of tests by kind of primitive for whole pictures: Haines's, and ours by census."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from beambench_report.havran.census import census_of
 PUBLISHED = ROOT / "results/haines/tests.csv"
 KINDS = ("polygon", "sphere", "cone", "box")
 CONTENDERS = ("goldsmith-salmon:order=given", "goldsmith-salmon:order=shuffled")
-"""The two orders of insertion: Haines does not state his."""
+"""Both orders of insertion, because Haines does not state his."""
 
 _PUBLISHED_COLUMNS = ("scene", "kind", "tests")
 _COLUMNS = ("contender", *_PUBLISHED_COLUMNS)
@@ -32,7 +32,7 @@ def read_tests(path: Path) -> dict[str, Tests]:
 
 
 def measure_tests(folder: Path, program: Path) -> Path:
-    """Counts into FOLDER/tests.csv; skips scenes that FOLDER/census has already."""
+    """Writes our counts to FOLDER/tests.csv; skips scenes that are already in FOLDER/census."""
     folder.joinpath("census").mkdir(parents=True, exist_ok=True)
     published = published_tests()
     rows = []

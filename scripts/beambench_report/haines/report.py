@@ -8,11 +8,12 @@ from beambench_report.haines.counts import KINDS, Tests, published_tests, read_t
 
 _HEAD = """# Haines's tests, counted again
 
-Tests by kind of primitive over whole pictures of the Standard Procedural Databases (513x513 rays
-through the corners of pixels and all rays that follow), in thousands, and our tests over his.
-Goldsmith and Salmon's hierarchy, with primitives inserted in the scene's order and shuffled; rays
-by Kay and Kajiya's queue. What his counts are and why ours are fewer:
-[results/haines](../../haines/README.md). Made by `python -m beambench_report haines`.
+Each cell is the number of our tests / Haines's tests, in thousands, and their ratio, by kind of
+primitive. The tests are those of whole pictures of the Standard Procedural Databases: 513x513 rays
+through pixel corners, and all rays that follow. Ours use Goldsmith and Salmon's hierarchy, with
+primitives inserted in the scene's order or shuffled, and Kay and Kajiya's queue.
+[results/haines](../../haines/README.md) explains his counts, and why ours are lower. Made by
+`python -m beambench_report haines`.
 """
 
 

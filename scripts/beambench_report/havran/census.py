@@ -9,14 +9,14 @@ from beambench_report.havran.contenders import SCENES
 
 
 class Census(TypedDict):
-    """The used part of the output of `beambench census --count --json` on one scene."""
+    """The fields used from the output of `beambench census ... --count --json` on one scene."""
 
     size: dict[str, float]
     work: dict[str, float]
 
 
 def census_of(file: Path, program: Path, scene: str, contender: str) -> Census:
-    """Counts into FILE, unless that has this contender's counts already; `scene` as published."""
+    """Returns the counts for a scene, by its published name, from FILE or by counting into it."""
     known = read_json(file)
     if not isinstance(known, dict) or known.get("structure") != contender:
         command = [str(program), "census", SCENES[scene], "--rules", "spd", "--accel", contender]

@@ -12,7 +12,8 @@ SCENES = {
     "tetra": "tetra:n=6",
     "tree": "tree:n=11",
 }
-# Havran's octrees: the scene's own box, objects by their bounding box, a leaf at one object.
+# Havran's octrees: the root is the scene's box, bounding boxes assign objects to nodes, and a node
+# with one object is a leaf.
 _OCTREE = "root=box,assign=bbox,max_objects=1"
 _STRUCTURES = {
     "Glassner 1984, center": f"glassner:{_OCTREE}",
@@ -29,5 +30,5 @@ def contender_of(structure: str, setting: str) -> str:
     """Returns our structure with its parameters: his root is at depth 0, ours at level 1."""
     word, _, depth = setting.partition(" ")
     if word != "depth" or not depth.isdecimal():
-        raise Problem(f"the setting '{setting}' of {structure} is none of ours: expected 'depth N'")
+        raise Problem(f"the setting '{setting}' of {structure} is unsupported: expected 'depth N'")
     return f"{_STRUCTURES[structure]},max_level={int(depth) + 1}"

@@ -1,4 +1,4 @@
-"""Counts of structures on scenes: those published by Havran, and ours in the same form."""
+"""Counts of structures on scenes: Havran's as published, and ours in the same form."""
 
 from pathlib import Path
 
@@ -43,7 +43,7 @@ def quantities_of(census: Census) -> dict[str, float]:
 
 
 def measure(folder: Path, program: Path, scenes: list[str]) -> Path:
-    """Writes counts on these scenes to FOLDER/counts.csv; skips those that FOLDER/census has."""
+    """Writes counts on these scenes to FOLDER/counts.csv; skips cases in FOLDER/census."""
     folder.joinpath("census").mkdir(parents=True, exist_ok=True)
     cases = [
         case

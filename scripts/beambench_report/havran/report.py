@@ -1,4 +1,4 @@
-"""Compares our counts with the published ones on one page: ratios, and the order of structures."""
+"""Compares our counts with Havran's on one page: ratios, and the order of structures."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -17,17 +17,17 @@ from beambench_report.havran.counts import PUBLISHED, read_counts
 SIZES = ["N_IN", "N_V", "N_EV", "N_OIV"]
 WORK = ["N_IT", "N_TS", "N_ETS", "N_EETS"]
 WITHIN = 0.05
-"""A difference up to this needs no explanation."""
+"""A relative difference of up to this size needs no explanation."""
 APART = 0.02
-"""Structures whose counts differ by less than this are equal, without an order."""
+"""Counts that differ by no more than this fraction are treated as equal."""
 _UNLIKE = "gears"
-"""Havran's scene differs from ours: results/havran/README.md."""
+"""Havran's scene of this name differs from ours (results/havran/README.md)."""
 _HEAD = """# Havran's octrees, measured again
 
-Counts of five octrees on the seven SPD scenes and lattice: 513x513 rays through the corners of
-pixels and all rays that follow, `beambench census --rules spd --count`. Every cell is ours / his.
-What the quantities mean: [results/havran](../../havran/README.md). Made by
-`python -m beambench_report havran`.
+Counts of five octrees on the seven SPD scenes and lattice, by `beambench census --rules spd
+--count`: 513x513 rays through pixel corners, and all rays that follow. In the tables of single
+scenes, every cell is our count / Havran's. [results/havran](../../havran/README.md) explains the
+quantities. Made by `python -m beambench_report havran`.
 """
 
 
@@ -44,9 +44,9 @@ def ratios(ours: pd.DataFrame, his: pd.DataFrame) -> pd.DataFrame:
 
 
 def order(ours: pd.DataFrame, his: pd.DataFrame, quantity: str) -> pd.DataFrame:
-    """Returns all pairs of structures, on one scene with one setting, that his counts put in order.
+    """Returns the pairs of structures, on one scene with one setting, whose counts in `his` differ.
 
-    The columns `ours` and `his` have the sign of the difference, 0 for equal counts.
+    The columns `ours` and `his` hold the sign of the difference, 0 for equal counts.
     """
     counts = {"ours": ours[quantity], "his": his[quantity]}
     both = pd.concat(counts, axis="columns", join="inner").reset_index()
@@ -81,9 +81,9 @@ def _orders(ours: pd.DataFrame, his: pd.DataFrame) -> str:
     worst = [(*pair, number) for pair, number in reversals.most_common()]
     return (
         "## Are the structures in the same order?\n"
-        f"Each two structures on one scene at one depth whose published counts differ by more than "
-        f"{APART:.0%}:\n\n{_markdown(header, rows)}\n"
-        f"The reversed ones of all but {_UNLIKE}:\n\n"
+        f"Pairs of structures on the same scene at the same depth whose published counts differ by "
+        f"more than {APART:.0%}:\n\n{_markdown(header, rows)}\n"
+        f"The reversed pairs, on all scenes except {_UNLIKE}:\n\n"
         f"{_markdown(('quantity', 'structure', 'structure', 'scenes and depths'), worst)}"
     )
 
@@ -104,8 +104,8 @@ def _means(ours: pd.DataFrame, his: pd.DataFrame) -> str:
         )
     ]
     return (
-        f"## Ours over his\nGeometric means, and how many are within {WITHIN:.0%}; by structure "
-        f"without {_UNLIKE}.\n\n" + "\n".join(tables)
+        f"## Ours over his\nGeometric means and, in parentheses, how many ratios are within "
+        f"{WITHIN:.0%} of 1. The means by structure exclude {_UNLIKE}.\n\n" + "\n".join(tables)
     )
 
 

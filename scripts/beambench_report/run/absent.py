@@ -1,4 +1,4 @@
-"""Missing parts of the folder of a run, in sentences with the remedy."""
+"""Describes the parts that are missing from a run's folder, with remedies."""
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,30 +27,30 @@ def absent(
     figures: Figures,
     pictures: Sequence[Image],
 ) -> Iterator[str]:
-    """Yields what the page lacks because the folder lacks it."""
+    """Yields a sentence for each part that is missing from the folder, and so from the page."""
     if not manifest.run_id:
         yield "There is no manifest.json: the machine and its state are unknown."
     if not (run.directory / "config.json").is_file():
         yield (
-            "There is no config.json: whether the sweep left out the cells that are missing is "
-            "unknown."
+            "There is no config.json: it is unknown whether the sweep left out the cells that are "
+            "missing."
         )
     timed = run.rows.loc[run.rows["timed"], list(IDENTITY)]
     repeated = {cell for cell, file in files.items() if file.total_ms}
     without = sum(identity(row) not in repeated for row in timed[list(IDENTITY)].to_dict("records"))
     if not repeated:
         yield (
-            "The repetitions of the cells are not in this folder: ratios are of medians and have "
+            "The repetitions of the cells are not in this folder: ratios compare medians and have "
             "wider intervals."
         )
     elif without:
         yield (
             f"The repetitions of {without:,} of {len(timed):,} timed cells are not in this folder: "
-            "their ratios are of medians and have wider intervals."
+            "their ratios compare medians and have wider intervals."
         )
     wrong = ~run.rows["verdict"].isin(FAULTLESS_VERDICTS)
     if wrong.any() and not any(file.message for file in files.values()):
-        yield "Why cells were wrong is not in this folder; a run has it in run.jsonl."
+        yield "This folder does not state why cells were wrong; the run's run.jsonl does."
     for kind in figures.missing:
         yield f"There is no figure '{kind.name}'; it needs {kind.needs}."
     if not pictures:

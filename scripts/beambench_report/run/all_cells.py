@@ -1,7 +1,7 @@
 """The rows of results.csv in compact form, for the table that the browser sorts and filters.
 
-Texts are indices into a list of all texts; figures are rounded to the precision of a table; a
-column with one value in all rows is stored once.
+Strings are indices into a list of all strings; figures are rounded to the precision of a table; a
+column with the same value in all rows is stored once.
 """
 
 import json
@@ -17,17 +17,17 @@ from beambench_report.base.quantities import DASH, number
 from beambench_report.base.records import Run
 
 _DIGITS = 5
-# Shown from the start; the others come with their group.
+# Columns that are shown from the start; the others are shown with their group.
 _FIRST_SHOWN = (
     "repetitions build_ms_median trace_ms_median total_ms_median mrays_per_s memory_bytes "
     "primitive_tests_per_ray verdict"
 ).split()
 _MOST_WRITTEN = 500
-"""Rows of the table that a page shows without JavaScript."""
+"""The most rows of the table that a page shows without JavaScript."""
 _OWN = ("contender", "subject", "view", "is_tuned", "kind", "timed")
 """The columns that `Run` adds."""
 _NAMES = {
-    "contender": "The structure, with those parameters that differ between rows of this run.",
+    "contender": "The structure, with the parameters that differ between rows of this run.",
     "view": "What the rays see: the scene, and whatever else differs between rows of this run.",
     "resolution": "Width and height of the image.",
 }
@@ -51,7 +51,7 @@ class AllCells:
 
 
 def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
-    """Packs every column of a run that is not empty; `own` are columns that no record has."""
+    """Packs every nonempty column of a run; `own` has the entries of columns in no record."""
     own = own or {}
     rows = run.rows
     sizes = rows["width"].map("{:.0f}x".format) + rows["height"].map("{:.0f}".format)
@@ -100,7 +100,7 @@ def _written(column: dict, row: int) -> str:
 
 
 def _unknown(series: pd.Series) -> Column:
-    """Returns the entry of a column without one: a newer beambench may add columns."""
+    """Returns an entry for an unknown column: a newer beambench may add columns."""
     kind = "number" if is_numeric_dtype(series) else "text"
     return Column(str(series.name), "", kind, "", "Not in the data dictionary.", "")
 
@@ -111,7 +111,7 @@ def _pack_texts(series: pd.Series) -> dict:
 
 
 def _pack_figures(series: pd.Series) -> dict:
-    """Formats a value: whole numbers exactly, others with some digits; null if not measured."""
+    """Packs figures: whole numbers exactly, others rounded; null if not measured."""
     values = series.to_numpy(float)
     finite = np.isfinite(values)
     known = values[finite]
@@ -121,7 +121,7 @@ def _pack_figures(series: pd.Series) -> dict:
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:
-    """Rounds to some significant digits; np.round counts digits after the point."""
+    """Rounds to `_DIGITS` significant digits; np.round counts digits after the point."""
     magnitude = np.floor(np.log10(np.abs(values), where=values != 0, out=np.zeros_like(values)))
     factor = 10.0 ** (_DIGITS - 1 - magnitude)
     return np.round(values * factor) / factor

@@ -1,4 +1,4 @@
-"""The work per ray: small multiples of the structures' counters."""
+"""Draws the work per ray: small multiples of the structures' counters."""
 
 from collections.abc import Sequence
 
@@ -32,7 +32,7 @@ _ROOM = TALLEST - 1.1  # for panels, beside heading and caption
 
 
 def counters(measured: Measured) -> list[Plot]:
-    """Returns the figures of all views with any counters; whole pictures have two."""
+    """Returns the figures of all views with counters; whole pictures have two kinds."""
     run = measured.run
     plots = []
     for view, stem in file_stems(run.views).items():
@@ -80,9 +80,9 @@ def _counters(measured: Measured, rows: pd.DataFrame, names: Sequence[str], head
         figure,
         heading,
         rows,
-        "Counts for each ray (less work is better), in a pass of its own, not in the timed code; "
-        'logarithmic where they differ by more than 20 times. "none": counted, and 0. Without dot '
-        "or word: not counted. Counters that only one structure has are left out.",
+        "Counts per ray (less work is better), from a separate pass, not from the timed code; "
+        'logarithmic where they differ by a factor of more than 20. "none": counted, and 0. Blank: '
+        "not counted. Counters of a single contender are left out.",
         times=False,
     )
 
@@ -96,7 +96,7 @@ def _draw(panel: Axes, rows: pd.DataFrame, name: str, looks: dict[str, Look]) ->
         if pd.isna(value):
             continue
         look = looks[contender]
-        if value == 0:  # which a logarithmic axis does not have
+        if value == 0:  # a logarithmic axis has no 0
             words = panel.text(
                 0.02,
                 place,

@@ -1,4 +1,4 @@
-"""Do the prediction intervals of one run hold for another run of the same sweep?"""
+"""Checks whether the prediction intervals of one run hold for another run of the sweep."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ _Interval = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Coverage:
-    """Counts the values of one run that are within the prediction intervals of another."""
+    """The number of values of one run that lie within the prediction intervals of another."""
 
     what: str
     within: int
@@ -29,7 +29,7 @@ class Coverage:
 
 
 def write_coverage(first: Path, second: Path) -> str:
-    """Returns the table of two runs in folders, as text."""
+    """Returns the table for the runs in two folders, as text."""
     runs = [(read_run(folder), read_analysis(folder)) for folder in (first, second)]
     return describe(coverage(*runs), (runs[0][1], runs[1][1]))
 
@@ -55,7 +55,7 @@ def describe(found: list[Coverage], analyses: tuple[Analysis, Analysis]) -> str:
     """Returns the table, and what each run reports on its machine."""
     lines = [str(one) for one in found]
     for name, analysis in zip(("first", "second"), analyses, strict=True):
-        reasons = "; ".join(analysis.reasons_for_care) or "nothing speaks against its times"
+        reasons = "; ".join(analysis.reasons_for_care) or "no reason to distrust its times"
         lines.append(f"{name} run: {reasons}")
     return "\n".join(lines) + "\n"
 

@@ -1,4 +1,4 @@
-"""Break-even plots and table: the cost of a ray with its share of the build."""
+"""Makes break-even plots and their table: the cost of a ray, with its share of the build."""
 
 import itertools
 from math import isfinite
@@ -37,9 +37,9 @@ _PANEL_WIDTHS = (6.3, 3.0)  # inches, of figures of one and of two columns
 
 _READING = (
     "Build time / number of rays + trace time of a ray, by the medians at the resolution in the "
-    "title. Thick: who is ahead of all others, build included, from some number of rays on. "
-    "Circles: where the fastest to trace overtakes another one; the dark one: the last of them. "
-    "Every pair: break-even.csv."
+    "title. Thick: contenders that are ahead of all others at some number of rays, build included. "
+    "Circles: the contender with the fastest trace overtakes another; dark: the last that it "
+    "overtakes. All pairs: break-even.csv."
 )
 
 
@@ -55,15 +55,15 @@ def crossings(measured: Measured) -> list[Plot]:
 
 
 def cost_of_a_ray(build_ms: float, ns_per_ray: float, rays: np.ndarray) -> np.ndarray:
-    """Returns the time in ns, with its share of the build."""
+    """Returns the time of a ray in ns, including its share of the build."""
     return 1e6 * build_ms / rays + ns_per_ray
 
 
 def _contenders(measured: Measured, view: str) -> pd.DataFrame:
-    """Returns the fastest first, without null, which finds nothing."""
+    """Returns the contenders to draw, the fastest first; null is excluded: it finds nothing."""
     rows = measured.finest(view).dropna(subset=["build_ms_median"])
     rows = rows[rows["structure"] != "null"]
-    # Exhaustive builds nothing and is slow everywhere: it is only drawn with others.
+    # exhaustive builds nothing and is slow everywhere: it is not drawn alone.
     if rows["is_reference"].all():
         return rows.iloc[:0]
     shown = leaders(rows) | set(rows["contender"].head(_MOST_LINES - len(leaders(rows))))
@@ -106,7 +106,7 @@ def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], st
         panel.set_ylim(least, most)
     hide_repeated_labels(panels, columns)
     what = (
-        f"From how many rays on a build pays off, {kind}",
+        f"Ray counts from which a build pays off, {kind}",
         f"ns per ray, build included, against the number of rays, {kind}",
     )
     plot = plot_of_views(measured.run, stem, figure, list(shown), what, _READING)
@@ -116,7 +116,7 @@ def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], st
 
 
 def _draw_line(panel: Axes, row: pd.Series, is_ahead: bool) -> End:
-    """Draws the cost of one contender; returns where its name belongs."""
+    """Draws the cost of one contender; returns the place of its name."""
     costs = cost_of_a_ray(row["build_ms_median"], row["ns"], _RAYS)
     color = structure_color(row["structure"])
     (line,) = panel.plot(_RAYS, costs, color=color, linewidth=2.2 if is_ahead else 0.9)
@@ -143,7 +143,7 @@ def _mark_crossings(panel: Axes, rows: pd.DataFrame) -> None:
             zorder=4,
         )
         ahead = f"{fastest['contender']} is ahead of {other} from {rays_in_words(rays)} rays on"
-        hover(mark, f"{ahead}, and of all" if is_last else ahead)
+        hover(mark, f"{ahead}, and of all others" if is_last else ahead)
     since = f"{rays_in_words(found[-1][0])} rays" if found else "the first ray"
     panel.text(
         0.98,
@@ -157,7 +157,7 @@ def _mark_crossings(panel: Axes, rows: pd.DataFrame) -> None:
 
 
 def overtakes(rows: pd.DataFrame) -> list[tuple[float, str]]:
-    """Returns the ray counts where the first row overtakes another one, the last one at the end."""
+    """Returns the ray counts at which the first row overtakes others, and these, in order."""
     first = rows.iloc[0]
     found = []
     for _, other in rows.iloc[1:].iterrows():
@@ -175,7 +175,7 @@ def rays_in_words(rays: float) -> str:
 
 
 def break_even_table(run: Run) -> pd.DataFrame:
-    """Returns the break-even of every ordered pair of contenders of every view, without null."""
+    """Returns the break-even of each ordered pair of contenders in each view, except null."""
     records = []
     for title in run.views:
         rows = run.view(title)
@@ -198,7 +198,7 @@ def break_even_table(run: Run) -> pd.DataFrame:
 
 
 Cost = tuple[float, float]
-"""Returns a contender's ms to build and ns per ray."""
+"""A contender's build time in ms and its trace time in ns per ray."""
 
 
 def _cost(row: pd.Series) -> Cost:
@@ -206,7 +206,7 @@ def _cost(row: pd.Series) -> Cost:
 
 
 def break_even(mine: Cost, other: Cost) -> tuple[float | None, str]:
-    """Returns the ray count, if there is one, and a description in words."""
+    """Returns the ray count from or up to which `mine` is ahead, if any, and a description."""
     since, until = break_even_rays(*mine, *other), break_even_rays(*other, *mine)
     if since == 0:
         return None, "at once"

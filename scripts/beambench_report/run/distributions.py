@@ -1,4 +1,4 @@
-"""Every repetition of every contender of a view: how far can a median be trusted?"""
+"""Draws every repetition of every contender of a view: how far a median can be trusted."""
 
 from collections.abc import Sequence
 
@@ -17,11 +17,11 @@ from beambench_report.run.measured import Measured, between, ns_in_words
 from beambench_report.run.panels import MOST_ROWS, finish, panels_with_legend, scale_axis
 
 _MOST_DOTS = 700  # of a figure, or its file grows large
-_FARTHEST = 30  # percent; what lies beyond is drawn at the end
+_FARTHEST = 30  # percent; repetitions beyond are drawn at the end
 _EXPLANATION = (
-    "Each dot is one repetition, the first trace after a build; the stroke is the median, the bar "
-    "behind it its 95% confidence interval. Left: as measured. Right: how far from the contender's "
-    "own median, in %; triangles lie beyond the axis.{thinned}"
+    "Each dot is one repetition, the first trace after a build. The stroke is the median, and the "
+    "bar behind it is the 95% confidence interval. Left: as measured. Right: deviation from the "
+    "contender's own median, in %; triangles mark repetitions beyond the axis.{thinned}"
 )
 
 
@@ -78,7 +78,7 @@ def _distributions(measured: Measured, view: str, stem: str, rows: pd.DataFrame)
             f"{view}, {size_of(rows.iloc[0])}: every repetition",
             measured.run.view(view),
             _EXPLANATION.format(
-                thinned=f" Of more than {most} repetitions, {most} evenly spread by their rank."
+                thinned=f" Of more than {most} repetitions, {most} appear, evenly spread by rank."
                 if is_thinned
                 else ""
             ),

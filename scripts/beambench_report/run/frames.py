@@ -1,4 +1,4 @@
-"""Scenes that move: the cost of each frame, and of an update for the rays of later frames."""
+"""Draws moving scenes: the cost of each frame, and the cost of updates for the rays."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -24,8 +24,8 @@ _HEIGHTS = (2.6, 1.5)  # inches, of the two rows of a scene
 _ROOM = 0.95  # of the frames' extent, for the names at the right
 _LABEL_SIZE = 6
 _READING = (
-    "Upper panels: build or update, and the first trace after it, mean over the blocks. Solid: "
-    "updated from the first frame; dashed: built anew in each."
+    "Upper panels: time of build or update and of the first trace after it, mean over the blocks. "
+    "Solid: updated from the first frame; dashed: built anew in each frame."
 )
 _READING_OF_RATIOS = (
     " Lower panels: trace time of the updated structure over that of a new one; bars: 95% "
@@ -43,7 +43,7 @@ class FrameLine:
     contender: str
     is_updated: bool
     points: tuple[tuple[int, float], ...]
-    """Frame numbers, ascending, and milliseconds of the whole frame."""
+    """Frame numbers in ascending order, each with the milliseconds of the whole frame."""
 
     @property
     def label(self) -> str:
@@ -62,7 +62,7 @@ class MovingView:
 
 
 def moving_views(measured: Measured) -> list[MovingView]:
-    """Returns the views with times in two frames, in the order of the run."""
+    """Returns the views with times in two or more frames, in the order of the run."""
     if "frame" not in measured.run.rows:
         return []
     rows = measured.timed.dropna(subset=["frame"])
@@ -98,7 +98,7 @@ def _lines(rows: pd.DataFrame) -> Iterable[FrameLine]:
 
 
 def frames(measured: Measured) -> list[Plot]:
-    """Returns a figure for each kind of rays; for many scenes, several."""
+    """Returns a figure, or several for many scenes, for each kind of rays."""
     views = moving_views(measured)
     kinds = file_stems(dict.fromkeys(view.ray_kind for view in views))
     plots = []
@@ -140,13 +140,13 @@ def _plot(measured: Measured, kind: str, views: Sequence[MovingView], stem: str)
     for panel, ends in labels:
         name_ends(panel, ends, _LABEL_SIZE)
     scenes = ", ".join(view.title for view in views)
-    return Plot(stem, figure, f"milliseconds per frame and what updates cost the rays: {scenes}")
+    return Plot(stem, figure, f"ms per frame, and the cost of updates for the rays: {scenes}")
 
 
 def _draw_times(
     panel: Axes, view: MovingView, looks: dict[str, Look]
 ) -> list[tuple[float, float, str, str]]:
-    """Returns the ends of the lines, with their names and colors."""
+    """Draws the lines; returns their ends, with names and colors."""
     ends = []
     for line in view.lines:
         look = looks[line.contender]
@@ -179,13 +179,13 @@ def _draw_ratios(panel: Axes, view: MovingView) -> list[tuple[float, float, str,
             else f"frame {frame} {number(ratio.value)}"
             for frame, ratio in points
         ]
-        hover(drawn, f"{series.contender}, trace over that of a new one: {'; '.join(words)}")
+        hover(drawn, f"{series.contender}, trace time, updated over new: {'; '.join(words)}")
         ends.append((*places[-1], brief_name(series.contender.replace(":", " ")), color))
     panel.set_ylabel("trace, updated\nover new")
     places = [one.frame for series in view.series for one in series.frames]
     ratios = [one.trace_ratio.value for series in view.series for one in series.frames]
     panel.plot([min(places, default=0), max(places, default=1)], [1, 1], color=SOFT, linewidth=0.8)
-    # Without the intervals, which are wide if there are few blocks.
+    # The limits ignore the intervals, which are wide if there are few blocks.
     low, high = min(ratios, default=1), max(ratios, default=1)
     panel.set_ylim(
         min(low, 1) - 0.15 * (high - low) - 0.1, max(high, 1) + 0.15 * (high - low) + 0.1

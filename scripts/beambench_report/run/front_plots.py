@@ -1,4 +1,4 @@
-"""Build time against trace time of all scenes of a run: their Pareto fronts, a panel for each."""
+"""Plots build time against trace time with its Pareto front, a panel for each scene of a run."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -32,11 +32,11 @@ from beambench_report.run.panels import (
 _MOST_PANELS = 6
 _PANEL_HEIGHT = 2.9  # inches
 _READING = (
-    "The lower and the further left, the better. The line joins the Pareto front: no other "
-    "contender is both built and traced in less time. Filled: the best choice for some number of "
-    "rays, its build included; hollow: for none. Builders without a structure: of sah-bvh; "
-    "embree: not watertight (robust=false) where its name does not say robust. Other names are "
-    "left out where there is no room."
+    "Lower and further left is better. The line joins the Pareto front: no other contender is both "
+    "built and traced in less time. Filled: the best choice for some number of rays, build "
+    "included; hollow: never the best choice. Builders without a structure's name are of sah-bvh. "
+    "embree without the word robust is not watertight (robust=false). Other names are left out "
+    "where there is no room."
 )
 _ROOM = 0.75  # of the extent of the logarithms of trace times, for names at the left
 _NAMED_LEFT = 0.5  # of the same extent: points further right have their names beside them
@@ -47,7 +47,7 @@ _LABEL_STEP = 7.6  # points
 def write_fronts(directory: Path) -> list[Path]:
     """Writes DIRECTORY/plots/fronts-*.svg and .png. Raises Problem if there is nothing to draw.
 
-    There is a figure for each kind of rays; for many scenes, several.
+    There is a figure, or several for many scenes, for each kind of rays.
     """
     measured = read_measured(directory)
     found = fronts(measured.analysis)
@@ -60,7 +60,7 @@ def write_fronts(directory: Path) -> list[Path]:
 
 
 def front_plots(measured: Measured, found: Sequence[Front]) -> list[Plot]:
-    """Returns the figures of some fronts."""
+    """Returns the figures of the given fronts."""
     kinds = file_stems(dict.fromkeys(front.view.ray_kind for front in found))
     plots = []
     for kind, stem in kinds.items():

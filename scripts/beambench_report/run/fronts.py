@@ -1,6 +1,6 @@
 """The Pareto front of a view by build and trace, and the ray counts where each member is best.
 
-Build times and times of a ray are those of the analysis of the run.
+Build times and times per ray are from the run's analysis.
 """
 
 from collections.abc import Sequence
@@ -15,23 +15,23 @@ class Choice:
     """A contender that is the best for some number of rays, its build included."""
 
     rays: float
-    """The ray count from which it is best; 0 for the first one."""
+    """The ray count from which the contender is best; 0 for the first choice."""
     standing: Standing
 
 
 @dataclass(frozen=True)
 class Front:
-    """The contenders of a view that no other one beats in both build and trace."""
+    """The contenders of a view that no other contender beats in both build and trace."""
 
     view: Standings
     members: tuple[Standing, ...]
     """The members by build time, the shortest first."""
     choices: tuple[Choice, ...]
-    """The members that are ever the best choice, by the number of rays."""
+    """The members that are best for some number of rays, in the order of that number."""
 
     @property
     def scene(self) -> str:
-        """Returns the view without its rays."""
+        """Returns the subject of the view without the kind of rays."""
         return self.view.subject.removesuffix(f", {self.view.ray_kind} rays")
 
     @property
@@ -57,9 +57,9 @@ def fronts(analysis: Analysis) -> list[Front]:
 
 
 def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
-    """Returns the points that no other point dominates, ordered by the first coordinate.
+    """Returns the indices of undominated points, ordered by the first coordinate.
 
-    Of points in the same place, it returns the first.
+    Of points in the same place, the first is returned.
     """
     front: list[int] = []
     for index in sorted(range(len(points)), key=lambda i: points[i]):
@@ -75,9 +75,10 @@ def front_of(standings: Sequence[Standing]) -> tuple[Standing, ...]:
 
 
 def choices_of(front: Sequence[Standing]) -> tuple[Choice, ...]:
-    """Returns the contenders that are the best for some number of rays, by that number.
+    """Returns the contenders that are best for some number of rays, in the order of that number.
 
-    Each is followed by the first one to overtake it; of several at once, by the fastest.
+    Each is followed by the first contender that overtakes it; if several do so at the same number,
+    by the fastest of them.
     """
     choices = [Choice(0.0, front[0])]
     while later := front[front.index(choices[-1].standing) + 1 :]:

@@ -1,4 +1,4 @@
-"""Growth of generated scenes: `beambench scene NAME --growth --csv` as a plot."""
+"""Plots the growth of generated scenes from `beambench scene NAME --growth --csv`."""
 
 from pathlib import Path
 
@@ -61,7 +61,7 @@ def growth_plot(tables: list[pd.DataFrame], stem: str) -> Plot:
     _finish(memory, "Memory of the scene's arrays", "memory")
     memory.set_yscale("log", base=2)
     memory.yaxis.set_major_formatter(lambda size, _: size_in_words(size))
-    _finish(seconds, "Time to generate it", "seconds")
+    _finish(seconds, "Time to generate the scene", "seconds")
     memory.legend(fontsize=8, frameon=False, ncols=2)
     seconds.set_xlabel("primitives")
     return Plot(stem, figure, "memory and time of generated scenes over their primitives")

@@ -1,4 +1,4 @@
-"""Templates and embedded images of all HTML pages."""
+"""Provides the templates and embedded images of all HTML pages."""
 
 import base64
 import io
@@ -21,15 +21,15 @@ LIBRARY = _INSTALLED if _INSTALLED.is_dir() else ROOT / "build/viewer"
 _SCRIPTS = ("dataTables.min.js", "dataTables.columnControl.min.js")
 _STYLE = ("columnControl.dataTables.min.css",)
 _WITHOUT_LIBRARY = (
-    "The tables of this page neither sort nor filter, because DataTables was not found when it was "
-    "written; fetch it with scripts/viewer, and write the page again."
+    "The tables of this page cannot be sorted or filtered, because DataTables was not found when "
+    "the page was written; fetch it with scripts/viewer, and write the page again."
 )
 _TYPES = {".png": "image/png", ".svg": "image/svg+xml"}
 
 
 @cache  # a template is compiled once for many pages
 def environment(*own: Path) -> Environment:
-    """Returns templates of the folders `own`, before those that all pages share."""
+    """Returns an environment that finds templates in `own`, then among the shared templates."""
     folders = [*own, TEMPLATES]
     made = Environment(
         loader=FileSystemLoader(folders),
@@ -57,25 +57,25 @@ def environment(*own: Path) -> Environment:
 
 
 def _order(value: float | str | None) -> str:
-    """Returns what tables are sorted by; nothing for what was not measured."""
+    """Returns the sort key of a table's field; empty if the field was not measured."""
     if value is None or value != value:
         return ""
     return value if isinstance(value, str) else f"{value:.6g}"
 
 
 def _library(names: Sequence[str]) -> Markup:
-    """Files of DataTables, joined; empty if it was not fetched."""
+    """Returns files of DataTables, joined; empty if DataTables was not fetched."""
     paths = [LIBRARY / name for name in names]
     if not all(path.is_file() for path in paths):
         return Markup()
     return Markup("\n".join(path.read_text("utf-8") for path in paths))
 
 
-_THUMBNAIL = (640, 480)  # pixels, at most: a page shows pictures at half of that
+_THUMBNAIL = (640, 480)  # pixels, at most; a page shows pictures at half this size
 
 
 def thumbnail_uri(path: Path) -> str:
-    """Returns a picture as a data address, no larger than shown; the file itself is unchanged."""
+    """Returns a reduced copy of a picture as a data URI; the file itself is unchanged."""
     try:
         small = Image.open(path).convert("RGB")
     except OSError as error:
@@ -87,6 +87,6 @@ def thumbnail_uri(path: Path) -> str:
 
 
 def data_uri(path: Path) -> str:
-    """Returns the bytes of an image as a data address."""
+    """Returns the bytes of an image as a data URI."""
     coded = base64.b64encode(path.read_bytes()).decode("ascii")
     return f"data:{_TYPES[path.suffix]};base64,{coded}"

@@ -15,7 +15,7 @@ from beambench_report.run.plots import KINDS, Kind, draw, without_figure
 
 @dataclass(frozen=True)
 class Image:
-    """An image embedded in the page: a picture by its address, or a plot by its element."""
+    """An image embedded in the page: a picture as a data URI, or a plot as an SVG element."""
 
     caption: str
     subject: str
@@ -43,13 +43,13 @@ class Figures:
 
     images: tuple[Image, ...]
     missing: tuple[Kind, ...]
-    """The kinds that the record lacks data for."""
+    """The kinds for which the record has no data."""
     undrawn: tuple[Kind, ...] = ()
     """The kinds that were not requested on this page."""
 
 
 def figures_of(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Figures:
-    """Returns the plots of the run's folder; without any, draws those of these kinds."""
+    """Returns the plots in the run's folder; if there are none, draws plots of `kinds`."""
     found = read_plots(measured.run.directory)
     if found is not None:
         return Figures(tuple(found.values()), tuple(without_figure(found)))

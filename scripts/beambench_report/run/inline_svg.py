@@ -1,4 +1,4 @@
-"""A plot within an HTML page: in the page's colors, light or dark, and with unique ids."""
+"""Embeds plots in an HTML page: in the page's colors, light or dark, and with unique ids."""
 
 import re
 

@@ -15,12 +15,12 @@ _PRIMITIVES = {
     "points": "spheres",
     "callbacks": "cones or spheres seen from the inside",
 }
-"""Names by the types in which Embree holds them (column `library_geometry`)."""
+"""Kinds of primitives by the types in which Embree holds them (column `library_geometry`)."""
 
 
 @dataclass(frozen=True)
 class Tile:
-    """A figure with its words; `term` is the glossary's entry for the first of them."""
+    """A figure with its words; `term` is the glossary's entry for the words."""
 
     figure: str
     words: str
@@ -29,7 +29,7 @@ class Tile:
 
 
 def tiles(run: Run, overheads: Sequence[Overhead]) -> list[Tile]:
-    """Returns a few figures on how large the run was and how well it could measure."""
+    """Returns the size of the run and the largest share of the harness, as figures."""
     of_references = run.rows["structure"].isin(REFERENCES)
     references = list(dict.fromkeys(run.rows.loc[of_references, "contender"]))
     counted = {
@@ -44,7 +44,7 @@ def tiles(run: Run, overheads: Sequence[Overhead]) -> list[Tile]:
     ]
     for one in overheads[:1]:
         figure = f"{100 * one.part:,.0f}%" if one.part >= 0.1 else f"{100 * one.part:.2g}%"
-        made.append(Tile(figure, f"of a trace is the harness's, at most: {one.title}"))
+        made.append(Tile(figure, f"is the harness's largest share of a trace: {one.title}"))
     return made
 
 
@@ -93,7 +93,7 @@ def _times(factor: float) -> str:
 
 
 def traced(rows: pd.DataFrame) -> str:
-    """Returns `Primary rays · 320x200, 640x480 · 1 sample per pixel · 1 thread`."""
+    """Returns text like `Primary rays · 320x200, 640x480 · 1 sample per pixel · 1 thread`."""
     sized = rows.sort_values("rays").drop_duplicates(["width", "height"])
     sizes = [size_of(row) for _, row in sized.iterrows()]
     if len(sizes) > _MOST_SIZES:
@@ -111,7 +111,7 @@ def traced(rows: pd.DataFrame) -> str:
 
 
 def kinds_of_primitives(rows: pd.DataFrame) -> str:
-    """Returns the kinds of a scene's primitives, if Embree's rows state them; else empty."""
+    """Returns the kinds of a scene's primitives; empty unless Embree's rows state them."""
     if "library_geometry" not in rows:
         return ""
     types = {one for text in rows["library_geometry"] for one in str(text).split("+")}
@@ -145,14 +145,14 @@ def about_references(rows: pd.DataFrame) -> list[str]:
     unbound = []
     if samplers := _listed(dict.fromkeys(others[paths == "image-own"])):
         unbound.append(
-            f"for {samplers}, whose own samples take the place of these rays (query path image-own)"
+            f"for {samplers}, whose own samples replace these rays (query path image-own)"
         )
     packers = _listed(dict.fromkeys(others[paths.isin(_BY_SIMD)]))
     if packers and own.isdisjoint(_BY_SIMD):
         verbs = " or ".join(verb for path, verb in _BY_SIMD.items() if (paths == path).any())
         unbound.append(f"for {packers}, whose rays are {verbs} in packets by SIMD")
     if unbound and is_null.any():
-        sentences.append(f"The time of null is no lower limit {', or '.join(unbound)}.")
+        sentences.append(f"The time of null is not a lower limit {', or '.join(unbound)}.")
     return sentences
 
 

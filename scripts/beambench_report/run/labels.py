@@ -1,4 +1,4 @@
-"""Names or numbers beside points that cover neither each other nor a point."""
+"""Writes names or numbers beside points, so that they cover neither each other nor a point."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ _SIZE = 6.5
 _DISTANCES = (5, 7, 9)  # points; farther away it is not clear which point is meant
 _DIRECTIONS = 12
 _STEP = 2  # points, of the boxes along a slanting line
-_NEARER = 5  # points, by which a name is nearer to its point than to others, or it may seem theirs
+_NEARER = 5  # points; a name must be nearer to its point than to others by this much
 
 
 @dataclass
@@ -37,8 +37,8 @@ def place_labels(
 ) -> set[int] | None:
     """Writes beside each point its name, or its number if the name does not fit.
 
-    Labels do not overlap. Returns the points that have numbers; None if even these are too crowded,
-    in which case nothing is written. Labels avoid the lines if possible, and have the color at
+    Labels do not overlap. Returns the points that have numbers; if even numbers do not fit, writes
+    nothing and returns None. Labels avoid the lines if possible, and have the color at
     their position in `colors`, if given. The boxes `taken`, in pixels, stay free. The layout must
     be settled.
     """
@@ -105,19 +105,19 @@ class _Room:
                 yield _Place(text, offset, box)
 
     def is_clear(self, place: _Place, index: int) -> bool:
-        """Is it clear that the label belongs to this point?"""
+        """Returns whether the label is clearly nearest to this point."""
         away = [_distance(center, place.box) for center in self.centers]
         own = away.pop(index) + _NEARER * self._scale
         return min(away, default=inf) >= own
 
     def best(self, places: Sequence[_Place]) -> _Place:
-        """Returns the first place that is off the lines; without one, the first of all."""
+        """Returns the first place that is off the lines; if there is none, the first place."""
         off = (one for one in places if not any(map(one.box.overlaps, self._crossed)))
         return next(off, places[0])
 
 
 def _offsets() -> list[tuple[float, float]]:
-    """Returns offsets, to the right first, then around."""
+    """Returns offsets in all directions, beginning with the right."""
     turns = sorted(range(_DIRECTIONS), key=lambda k: min(k, _DIRECTIONS - k))
     return [
         (distance * cos(2 * pi * k / _DIRECTIONS), distance * sin(2 * pi * k / _DIRECTIONS))
@@ -187,12 +187,12 @@ End = tuple[float, float, str, str]
 """The last point of a line, its name and its color."""
 
 _LINE_OF_NAME = 1.2  # of the size
-_CHARACTER = 0.58  # of the size, the mean width of one
+_CHARACTER = 0.58  # of the size; the mean width of a character
 _GAP = 11  # points, between a line and its name
 
 
 def share_for_names(names: Iterable[str], width: float) -> float:
-    """Returns the share of a panel of that width, in inches, that names at its right end take."""
+    """Returns the share of a panel, `width` inches wide, that names at its right end take."""
     longest = max(map(len, names), default=0)
     return min(0.6, (_GAP + _CHARACTER * _SIZE * longest) / (72 * width))
 

@@ -1,4 +1,4 @@
-"""Data of the plots of a run: its rows in ns per ray, its repetitions, and who is fastest."""
+"""The data of a run's plots: its rows in ns per ray, its repetitions, and its analysis."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -42,11 +42,10 @@ class Measured:
 
     @cached_property
     def timed(self) -> pd.DataFrame:
-        """Returns the rows whose times count, with the ns per ray, its 95% interval and
-        repetitions.
+        """Returns the rows whose times count, with columns in ns per ray.
 
-        Columns added: `ns`, `ns_low`, `ns_high` (nan without an interval), `repeated` (the ns of
-        every repetition) and `is_reference`.
+        Columns added: `ns`, `ns_low` and `ns_high` (the 95% interval; nan without one), `repeated`
+        (the ns of every repetition) and `is_reference`.
         """
         rows = self.run.rows
         rows = rows[rows["timed"] & (rows["trace_ms"] > 0) & (rows["rays"] > 0)]
@@ -86,12 +85,12 @@ def ns_in_words(row: pd.Series) -> str:
 
 
 def between(low: float, high: float) -> str:
-    """Formats the ends of an interval, in brackets behind a value."""
+    """Formats the ends of an interval, in parentheses after a value."""
     return f" ({number(low)} to {number(high)})"
 
 
 def by_kind(rows: pd.DataFrame, views: Iterable[str]) -> dict[str, list[str]]:
-    """Groups the views that differ only in what is seen, by their common properties."""
+    """Groups the views by kind of rays and, if it varies, by samples per pixel."""
     groups: dict[str, list[str]] = {}
     for view in views:
         first = rows[rows["view"] == view].iloc[0]

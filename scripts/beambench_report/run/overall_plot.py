@@ -1,4 +1,4 @@
-"""All contenders over all views of one kind of rays, as multiples of the fastest."""
+"""Plots all contenders over all views with one kind of rays, as multiples of the fastest."""
 
 from collections import defaultdict
 
@@ -18,8 +18,8 @@ from beambench_report.run.panels import MOST_ROWS, finish, panels_with_legend
 _MOST_DOTS = 150  # with a hover title each; beyond, one title for all dots of a row
 _GAP = 1.1  # rows between contenders and references
 _EXPLANATION = (
-    "Small: each view at its highest resolution, the first trace after a build over that of the "
-    "view's fastest (build not included). Large: their geometric mean{lines}. "
+    "Small: each view at its highest resolution, the time of the first trace after a build over "
+    "that of the view's fastest (build not included). Large: the geometric mean{lines}. "
     "References find nothing (null) or test everything (exhaustive): they do not compete."
 )
 
@@ -55,8 +55,8 @@ def _overall(measured: Measured, one: Overall, stem: str) -> Plot:
         _write_values(panel, place, mean, one.views, is_best=place == 0)
     _label(panel, rows, one, last)
     drawn = {
-        "thick line: 95% confidence interval of measuring": any(m.ratio.interval for m in means),
-        "thin line: 95% confidence interval by the scatter between views": any(
+        "thick line: 95% confidence interval of measurement": any(m.ratio.interval for m in means),
+        "thin line: 95% confidence interval from the scatter between views": any(
             m.scatter_low is not None for m in means
         ),
     }
@@ -133,7 +133,7 @@ def _write_values(panel: Axes, place: float, mean: Mean, views: int, *, is_best:
 
 
 def _beside(panel: Axes, right: float, place: float, text: str, **style: object) -> None:
-    """Writes in a column to the right of the panel."""
+    """Writes text in a column to the right of the panel."""
     panel.annotate(
         text,
         (1, place),

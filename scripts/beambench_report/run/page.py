@@ -43,7 +43,7 @@ class View:
     anchor: str
     primitives: int
     kinds_of_primitives: str
-    """The machine; empty if the record does not state it."""
+    """The kinds of the scene's primitives; empty if the record does not state them."""
     pictures: tuple[Image, ...]
     plots: tuple[Image, ...]
     tables: tuple[Table, ...]
@@ -59,7 +59,7 @@ def make_views(
     plots: Sequence[Image],
     reference: str | None,
 ) -> list[View]:
-    """A section for each view; `resolutions` has its rows, the finest first."""
+    """Returns a section for each view; `resolutions` has the rows of a view, the finest first."""
     stems = file_stems(resolutions)
     views = []
     for title, groups in resolutions.items():

@@ -1,4 +1,4 @@
-"""Figures of several panels at page width, never taller than 1.4 times that."""
+"""Makes figures of several panels at page width, never taller than 1.4 times the width."""
 
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -46,7 +46,7 @@ def numbered(stem: str, index: int) -> str:
 def parts_by_kind(
     rows: pd.DataFrame, views: Iterable[str], stem: str, most: int
 ) -> Iterator[tuple[str, Sequence[str], str]]:
-    """Yields the figures that show the views, one kind of rays at a time: kind, views, stem."""
+    """Yields the kind, views and stem of each figure; a figure shows one kind of rays."""
     groups = by_kind(rows, views)
     kinds = file_stems(groups)
     for kind, own in groups.items():
@@ -64,7 +64,7 @@ def panels_with_legend(
     width_ratios: Sequence[float] | None = None,
     with_lines: bool = True,
 ) -> tuple[Figure, list[Axes]]:
-    """Returns a figure of `count` panels and, below them, any legend of contenders."""
+    """Returns a figure of `count` panels, with the legend of contenders, if any, below them."""
     rows = ceil(count / columns)
     longest = max((len(name) for name in legend), default=0)
     legend_columns = max(1, int(PAGE_WIDTH / (0.45 + _LEGEND_CHARACTER * longest)))
@@ -128,7 +128,7 @@ def plot_of_views(
 
 
 def set_title(panel: Axes, title: str, width: int = 38) -> None:
-    """Returns the title of one of several panels."""
+    """Sets the title of one of several panels."""
     panel.set_title(textwrap.fill(title, width, break_on_hyphens=False), fontsize=8.5)
 
 
@@ -152,7 +152,7 @@ def scale_axis(panel: Axes, which: str, values: Iterable[float], ticks: int = 9)
 
 
 def hide_repeated_labels(panels: Sequence[Axes], columns: int, is_shared: str = "xy") -> None:
-    """Hides labels in panels except at the left and the lower end, and ticks of shared axes."""
+    """Hides labels except at the left and lower edges of the figure, and ticks of shared axes."""
     for place, panel in enumerate(panels):
         if place % columns:
             panel.set_ylabel("")
@@ -163,7 +163,7 @@ def hide_repeated_labels(panels: Sequence[Axes], columns: int, is_shared: str = 
 
 
 def share_limits(panels: Sequence[Axes], which: str = "xy") -> None:
-    """Gives all panels the widest limits that one of them has."""
+    """Sets the limits of all panels so that they cover the limits of each panel."""
     for axis in which:
         limits = [getattr(panel, f"get_{axis}lim")() for panel in panels]
         widest = (min(low for low, _ in limits), max(high for _, high in limits))

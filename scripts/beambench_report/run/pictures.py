@@ -1,4 +1,4 @@
-"""Pictures of scenes, rendered by beambench: those of a run, or a contact sheet."""
+"""Makes pictures of scenes with beambench: one for each scene of a run, or a contact sheet."""
 
 import json
 import math
@@ -56,7 +56,7 @@ def write_pictures(directory: Path, beambench: Path) -> list[Path]:
 
 
 def _heatmap_structure(run: Run, scene: str) -> str | None:
-    """Returns the structure's first variant that was correct on this scene, as for `--accel`."""
+    """Returns the structure's first correct variant on this scene, in the form of `--accel`."""
     rows = run.rows[
         (run.rows["scene"] == scene)
         & (run.rows["structure"] == _HEATMAP_STRUCTURE)
@@ -82,7 +82,7 @@ _VIEWS = {
     "misil": (("--depth", "1"), ""),  # its surfaces are pale mirrors of the sky otherwise
     "soup": (("--angle", "12"), "close up"),  # its triangles are smaller than pixels otherwise
 }
-"""Options for scenes that their own camera or mirrors do not show well, and notes for labels."""
+"""Options for scenes whose own camera or mirrors show little, and notes for their labels."""
 
 
 @dataclass(frozen=True)
@@ -121,9 +121,9 @@ DEFAULT_GROUPS = (
 
 
 def write_contact_sheet(output: Path, beambench: Path, scenes: list[str] | None = None) -> Path:
-    """Renders the scenes (default: those of DEFAULT_GROUPS) and writes them as one PNG."""
+    """Renders the scenes (by default of DEFAULT_GROUPS) and writes them as one PNG."""
     if output.suffix != ".png":
-        raise Problem(f"{output}: a contact sheet is a .png")
+        raise Problem(f"{output}: a contact sheet must be a .png file")
     if not output.parent.is_dir():
         raise Problem(f"{output}: there is no folder {output.parent}")
     groups = (Group("", tuple(scenes)),) if scenes else DEFAULT_GROUPS
@@ -147,7 +147,7 @@ def registered_meshes(beambench: Path) -> list[str]:
 
 
 def _counts(beambench: Path, scene: str) -> str:
-    """Returns the contents of the scene, for its label."""
+    """Returns the numbers of primitives in the scene, for its label."""
     about = json.loads(_run(beambench, scene, "scene", scene, "--json"))
     numbers = {kind: about[f"{kind}s"] for kind in ("polygon", "sphere", "cone")}
     # A number and its noun stay on one line.
@@ -207,7 +207,7 @@ def _draw_picture(
 
 
 def _write(figure: Figure, left: float, top: float, text: str, size: float, weight: str) -> None:
-    """Writes a line below and to the right of a point, in a size in pixels."""
+    """Writes a line below and to the right of a point; all lengths are in pixels."""
     figure.text(
         left / WIDTH,
         1 - top / (figure.get_figheight() * _DPI),

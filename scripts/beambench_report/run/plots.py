@@ -1,4 +1,4 @@
-"""The plots of a run: who is fastest, at what price, from how many rays on, and how surely."""
+"""Draws the plots of a run: speeds, their price, break-even ray counts, and precision."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -36,20 +36,20 @@ KINDS = (
     Kind(resolutions, "resolutions", "times of a contender at two resolutions"),
     Kind(swept, "by a parameter", "a parameter that two structures sweep"),
     Kind(crossings, "break-even", "two contenders with times in one view"),
-    Kind(distributions, "distributions", "repetitions, which the log has: run.jsonl"),
+    Kind(distributions, "distributions", "repetitions, which are in the log, run.jsonl"),
     Kind(frames, "frames", "times in two frames of a scene that moves"),
     Kind(counters, "counters", "a counter that two contenders have"),
 )
 
 
 def draw(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Iterator[Plot]:
-    """Returns the figures of these kinds; they must also be saved within `house_style`."""
+    """Yields the figures of these kinds; draw and save them within `house_style`."""
     for kind in kinds:
         yield from kind.draw(measured)
 
 
 def without_figure(stems: Iterable[str], kinds: Sequence[Kind] = KINDS) -> list[Kind]:
-    """Returns the kinds without a figure among those of these stems."""
+    """Returns the kinds that have no figure among `stems`."""
     known = tuple(stems)
     return [kind for kind in kinds if not any(stem.startswith(kind.name) for stem in known)]
 
@@ -79,7 +79,7 @@ def write_plots(directory: Path, kinds: Sequence[Kind] = KINDS) -> list[Path]:
 
 
 def _remove_former(folder: Path, stems: set[str]) -> None:
-    """Returns the figures in the existing index that were not drawn again."""
+    """Removes the figures in the existing index that were not drawn again."""
     try:
         former = {entry["stem"] for entry in load_json(folder / PLOT_INDEX)}
     except (OSError, ValueError, TypeError, KeyError):
@@ -93,8 +93,8 @@ def _readme(run: Run, plots: list[Plot], kinds: Sequence[Kind]) -> str:
     lines = [
         f"# Plots of run {run.rows['run_id'].iloc[0]}",
         "",
-        "Drawn by `scripts/run` from `../results.csv`; each is there as PNG and as SVG, which in a",
-        "browser shows values where the mouse rests.",
+        "Drawn by `scripts/run` from `../results.csv`, each as PNG and as SVG. In a browser, SVG",
+        "plots show the values under the mouse.",
         "",
         "| file | shows |",
         "|---|---|",
@@ -103,7 +103,7 @@ def _readme(run: Run, plots: list[Plot], kinds: Sequence[Kind]) -> str:
         "",
     ]
     if missing := without_figure((plot.stem for plot in plots), kinds):
-        lines += ["Not drawn, for the run has not what they need:", ""]
+        lines += ["Not drawn, because the run does not have the data they need:", ""]
         lines += [f"- {kind.name}: {kind.needs}" for kind in missing]
         lines += [""]
     return "\n".join(lines)

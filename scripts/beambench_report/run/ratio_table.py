@@ -1,7 +1,8 @@
-"""Every contender of a run relative to one of them, or to the best of a structure, view by view.
+"""Divides the times of a run's contenders by the times of one, or of a structure's fastest.
 
-It suits runs that compare programs over a few scenes: a row for each contender, a column for each
-scene, and the geometric mean over the scenes. Only lists in their original order count.
+The table suits runs that compare programs over a few scenes: it has a row for each contender, a
+column for each scene, and the geometric mean over the scenes. Only lists in their original order
+count.
 """
 
 from pathlib import Path
@@ -20,8 +21,8 @@ _TIME = "trace_net_ms_median"
 def write_ratios(run: Path, base: str, output: Path | None = None) -> str | list[Path]:
     """Returns the table as Markdown, or the file that was written.
 
-    `base` is a contender, as plots name it, or a structure: then in each view its fastest contender
-    with correct hits is the base. Raises Problem if the run has neither.
+    `base` is a contender, as plots name it, or a structure, which stands for its fastest contender
+    with correct hits in each view. Raises Problem if the run has neither.
     """
     text = _text(read_run(run).rows, base)
     return [write_text(output, text)] if output else text
@@ -57,9 +58,9 @@ def _text(rows: pd.DataFrame, base: str) -> str:
     heads = (f"build, ms; {', '.join(kinds)}", *(f"`{scene}`" for scene in scenes), "all scenes")
     wrong = rows[rows["timed"].isin([False]) | (rows["verdict"] != OK)]
     lines = [
-        f"Trace time, without the harness's share, over that of `{base}`: medians, and geometric "
-        "means over all scenes; build in milliseconds, from the first kind of rays with correct "
-        "hits.",
+        f"Median trace time, without the harness's share, over that of `{base}`, and geometric "
+        "means over all scenes. Build times are in milliseconds, from the first kind of rays with "
+        "correct hits.",
         "",
         *markdown_table(heads, body),
         "",
@@ -74,7 +75,7 @@ def _text(rows: pd.DataFrame, base: str) -> str:
 
 
 def _ratios(correct: pd.DataFrame, base: str) -> pd.DataFrame:
-    """Returns the rows with `ratio`."""
+    """Returns the rows with `ratio`, the trace time over that of the base."""
     of_base = correct[(correct["contender"] == base) | (correct["structure"] == base)]
     if of_base.empty:
         names = ", ".join(sorted({*correct["contender"], *correct["structure"]}))

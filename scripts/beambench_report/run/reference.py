@@ -45,12 +45,12 @@ def choose_reference(run: Run, wanted: str | None = None) -> str | None:
 
 
 def why_reference(reference: str, wanted: str | None) -> str:
-    """Returns why it is the reference, as the end of a sentence."""
+    """Returns why the reference was chosen, as the end of a sentence."""
     if wanted is not None:
-        return "as --reference wants it"
+        return "chosen by --reference"
     if _is_embree(reference):
-        return "Embree's fastest of those with correct hits in the most views"
-    return "the first with correct hits in the most views"
+        return "Embree's fastest with correct hits in the most views"
+    return "the first contender with correct hits in the most views"
 
 
 def _is_embree(contender: str) -> bool:
@@ -67,7 +67,7 @@ def _chosen(wanted: str, contenders: list[str]) -> str:
     if variants:
         listed = " or ".join(f"'{name}'" for name in variants)
         raise Problem(f"'{wanted}' is the structure of {len(variants)} contenders; name {listed}")
-    raise Problem(f"no contender '{wanted}' was right; there are: {', '.join(contenders)}")
+    raise Problem(f"no contender '{wanted}' has correct hits; these have: {', '.join(contenders)}")
 
 
 def compared(

@@ -1,4 +1,4 @@
-"""The cost of a ray over the number of rays: small multiples of all views."""
+"""Plots the cost of a ray against the number of rays: small multiples of all views."""
 
 from collections.abc import Sequence
 from math import log10, nan
@@ -42,7 +42,7 @@ def resolutions(measured: Measured) -> list[Plot]:
 
 def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str) -> Plot:
     rows = measured.timed[measured.timed["view"].isin(views)]
-    # The fastest first, by their worst rank over the views.
+    # The fastest first, by their least time of a ray in any view.
     fastest = rows.sort_values("ns").drop_duplicates("contender")
     place = fastest.groupby("structure").cumcount()
     shown = fastest[place < _SHOWN_VARIANTS].head(_MOST_LINES)
@@ -90,7 +90,7 @@ def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str)
 
 
 def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> End:
-    """Draws one contender; returns where its name belongs."""
+    """Draws one contender; returns the place of its name."""
     strokes = [
         (row["rays"], end)
         for _, row in line.iterrows()
@@ -111,7 +111,7 @@ def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> End:
 def _name_sizes(panel: Axes, sizes: dict[str, float], share: float) -> None:
     """Labels the sizes that are not too close to the last labeled one.
 
-    The names of lines take that share of the panel, at the right.
+    The names of lines take `share` of the panel, at the right.
     """
     least, most = min(sizes.values()), max(sizes.values())
     extent = log10(most / least)

@@ -1,4 +1,4 @@
-"""The layout of a contact sheet: rows of one height that fill the sheet's width."""
+"""Lays out a contact sheet: in each row, pictures of equal height fill the sheet's width."""
 
 import math
 import textwrap
@@ -37,7 +37,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Row:
-    """Pictures of one height, each with its name and counts below it."""
+    """Pictures of equal height, each with its name and counts below it."""
 
     heading: str
     pictures: list[Picture]
@@ -63,7 +63,7 @@ class Row:
 def even_rows(heading: str, pictures: list[Picture]) -> list[Row]:
     """Returns as few rows as possible, with about equal numbers of pictures; each fills the width.
 
-    A few pictures, which would become too high, leave space beside them.
+    A few pictures that would become too high leave space beside them.
     """
     count = math.ceil(len(pictures) / _LONGEST_ROW)
     ends = [math.ceil(len(pictures) * number / count) for number in range(count + 1)]

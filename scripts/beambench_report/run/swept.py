@@ -1,4 +1,4 @@
-"""How a swept parameter changes who is faster: ratios at equal values of it."""
+"""Plots the effect of a swept parameter: ratios of structures at equal parameter values."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ _LEAST_VALUES = 2
 
 @dataclass(frozen=True)
 class _Sweep:
-    """The parameter that several structures sweep, and their variants that have it."""
+    """The parameter that several structures sweep, and their variants with this parameter."""
 
     parameter: str
     base: str
@@ -46,7 +46,7 @@ class _Sweep:
 
 
 def swept(measured: Measured) -> list[Plot]:
-    """Returns a figure for each kind of rays, of the parameter that most structures sweep."""
+    """Returns figures of the parameter that most structures sweep, for each kind of rays."""
     sweep = _sweep(measured.timed)
     if sweep is None:
         return []
@@ -125,7 +125,7 @@ def _figure(
         panel.xaxis.set_minor_locator(NullLocator())
         panel.xaxis.set_major_formatter("{x:g}")
         panel.set_xlabel(sweep.parameter)
-        panel.set_ylabel(f"times as fast as\n{sweep.base} (higher is better)", fontsize=7.5)
+        panel.set_ylabel(f"speed relative to\n{sweep.base} (higher is better)", fontsize=7.5)
         panel.grid(axis="y", linewidth=0.6)
         panel.margins(x=0.1)
     for part in _rows_of_panels(dict(zip(panels, lines.items(), strict=True)), columns):
@@ -136,7 +136,7 @@ def _figure(
         f"speed relative to {sweep.base} by {sweep.parameter}, {kind}",
     )
     reading = (
-        f"The trace time of {sweep.base} over that of each other, both with the same "
+        f"The trace time of {sweep.base} over that of each other contender with the same "
         f"{sweep.parameter}; medians of the first trace after a build, build not included. "
         "Bars: 95% confidence interval of the ratio, where there is one."
     )
@@ -149,7 +149,7 @@ _Line = list[tuple[float, Ratio]]
 def _rows_of_panels(
     panels: Mapping[Axes, tuple[tuple[str, float], Mapping[str, _Line]]], columns: int
 ) -> list[dict[Axes, Mapping[str, _Line]]]:
-    """Returns the panels by resolution if each of those fills whole rows; otherwise all of them."""
+    """Returns the panels by resolution if each resolution fills whole rows, else all panels."""
     parts: dict[float, dict[Axes, Mapping[str, _Line]]] = {}
     for panel, ((_, rays), own) in panels.items():
         parts.setdefault(rays, {})[panel] = own
@@ -159,7 +159,7 @@ def _rows_of_panels(
 
 
 def _share_scale(panels: Mapping[Axes, Mapping[str, _Line]]) -> None:
-    """Gives panels of a resolution one vertical axis: other resolutions differ by far more."""
+    """Gives the panels one vertical scale; between resolutions, values would differ too much."""
     values = [ratio.value for own in panels.values() for line in own.values() for _, ratio in line]
     for panel in panels:
         if scale_axis(panel, "y", values):
@@ -204,8 +204,8 @@ def _draw_line(panel: Axes, name: str, line: _Line, look: Look, sweep: _Sweep) -
         **look.line,
     )
     texts = [
-        f"{sweep.parameter}={value:g} {number(ratio.value)} times"
+        f"{sweep.parameter}={value:g} {number(ratio.value)}"
         f"{between(*ratio.interval) if ratio.interval else ''}"
         for value, ratio in line
     ]
-    hover(joined, f"{name} as fast as {sweep.base}: {'; '.join(texts)}")
+    hover(joined, f"{name}, speed relative to {sweep.base}: {'; '.join(texts)}")

@@ -27,7 +27,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Field:
-    """A field: its text, its sort key, and smaller words behind it."""
+    """A field: its text, its sort key, and a note in smaller print."""
 
     text: str
     value: float | str | None
@@ -36,7 +36,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Line:
-    """A contender's line; the shares are those of its bar, 1 being the whole width."""
+    """A contender's line; the shares are the lengths of its bars, 1 being the whole width."""
 
     contender: str
     """The contender's label; if it is tuned, with the parameters that represent it."""
@@ -44,9 +44,9 @@ class Line:
     verdict: str
     fields: tuple[Field, ...]
     anchor: str = ""
-    """The number of its row among all cells."""
+    """The anchor of the contender's cell, for links to it."""
     is_reference: bool = False
-    """Is it `null` or `exhaustive`, which are listed apart?"""
+    """Whether the contender is `null` or `exhaustive`, which are listed apart."""
     build_share: float = 0.0
     trace_share: float = 0.0
     off_the_scale: bool = False
@@ -61,12 +61,12 @@ class Table:
     lines: tuple[Line, ...]
     unshown: int = 0
     left_out: tuple[tuple[str, str], ...] = ()
-    """Contenders without a row here, each with the reason."""
+    """Contenders without a row in this table, each with the reason."""
 
 
 MISSING = Field("–", None)  # noqa: RUF001
 _MOST_LINES = 60
-_FAR = 12  # a time this many times the median would flatten the others' bars
+_FAR = 12  # times of more than this many medians would flatten the other bars
 
 
 def view_table(
@@ -76,7 +76,7 @@ def view_table(
     reference: str | None,
     left_out: tuple[tuple[str, str], ...] = (),
 ) -> Table:
-    """Returns times and memory, the fastest first, then those without times, references last."""
+    """Returns times and memory: by trace time, then contenders without times, then references."""
     ordered = _in_order(rows)
     headings = (
         Heading("trace", "ns per ray", "trace_ms"),
@@ -100,7 +100,7 @@ def view_table(
 
 
 def work_table(caption: str, rows: pd.DataFrame, counters: list[str]) -> Table | None:
-    """Returns counters per ray; None if nothing was counted."""
+    """Returns the table of counters per ray; None if nothing was counted."""
     counters = [name for name in counters if rows[name].notna().any() and (rows[name] != 0).any()]
     counted = rows[rows[counters].notna().any(axis=1)] if counters else rows.iloc[:0]
     if counted.empty:
@@ -140,11 +140,11 @@ def cell_anchor(row: Mapping[str, object]) -> str:
 
 
 def ratio_field(ratio: Ratio | None) -> Field:
-    """Formats a ratio with its interval; an unpaired one is marked."""
+    """Formats a ratio with its interval; an unpaired ratio is marked."""
     if ratio is None:
         return MISSING
     note = ""
-    if ratio.interval and ratio.low != ratio.high:  # such as that of the fastest to itself
+    if ratio.interval and ratio.low != ratio.high:  # equal for a contender over itself
         note = f"{number(ratio.low)} to {number(ratio.high)}"
         note += "" if ratio.paired else ", not paired"
     return Field(number(ratio.value), ratio.value, note)

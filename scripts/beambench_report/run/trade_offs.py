@@ -1,4 +1,4 @@
-"""What a fast trace costs: build time and memory against it, and who pays least for it."""
+"""Plots what a fast trace costs: build time and memory against trace time."""
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -19,10 +19,10 @@ _MIB = 2.0**20
 _ANY_NUMBER = "00"  # as wide as the numbers that are not known yet
 _COSTS = {"build_ms_median": "build time in ms", "memory_mib": "memory in MiB"}
 _EXPLANATION = (
-    "The lower and the further left, the better: the stairs join those of which none other is both "
-    "cheaper and faster (the Pareto front). Bars: 95% confidence interval of the first trace after "
-    "a build. Axes are logarithmic where values differ by more than 20 times. null and exhaustive, "
-    "which build nothing, are left out."
+    "Lower and further left is better. The stairs join the Pareto front: no other contender is "
+    "both cheaper and faster. Bars: 95% confidence interval of the first trace after a build. Axes "
+    "are logarithmic where values differ by a factor of more than 20. null and exhaustive, which "
+    "build nothing, are left out."
 )
 
 
@@ -43,7 +43,7 @@ def _trade_off(
     measured: Measured, view: str, stem: str, rows: pd.DataFrame, costs: list[str]
 ) -> Plot:
     contenders = list(rows["contender"])
-    # A legend shifts the panels slightly, so the second time another contender may need a number.
+    # A legend shifts the panels slightly, so other contenders may need numbers the second time.
     figure, numbered = _figure(measured, view, rows, costs, [])
     if numbered:
         figure, others = _figure(measured, view, rows, costs, numbered)
@@ -55,7 +55,7 @@ def _trade_off(
 def _figure(
     measured: Measured, view: str, rows: pd.DataFrame, costs: list[str], numbered: list[str]
 ) -> tuple[Figure, list[str]]:
-    """Returns the figure with a legend of those `numbered`, and the unlabeled contenders."""
+    """Returns the figure with a legend of `numbered`, and the contenders without a written name."""
     numbers = {contender: str(place) for place, contender in enumerate(numbered, 1)}
     legend = {f"{number}  {name}": measured.looks[name] for name, number in numbers.items()}
     figure, panels = panels_with_legend(len(costs), len(costs), 3.5, legend, with_lines=False)
@@ -83,11 +83,11 @@ def _figure(
 def _draw(
     panel: Axes, rows: pd.DataFrame, cost: str, looks: dict[str, Look]
 ) -> tuple[pd.DataFrame, list[tuple[float, float]]]:
-    """Returns the rows with the `cost` at which they were drawn, and the corners of the stairs."""
+    """Draws a panel; returns the rows with the drawn `cost`, and the corners of the stairs."""
     scale_axis(panel, "x", rows["ns"])
     is_log = scale_axis(panel, "y", rows[cost])
     least = rows.loc[rows[cost] > 0, cost].min()
-    # A logarithmic axis has no place for zero cost, which is drawn at the lower end with a note.
+    # A logarithmic axis has no zero: a cost of zero is drawn at the lower end.
     rows = rows.assign(cost=rows[cost].clip(lower=least / 3) if is_log else rows[cost])
     panel.margins(0.14)
     for _, row in rows.iterrows():
@@ -115,7 +115,7 @@ def _draw(
 
 
 def _stairs(panel: Axes, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Returns the stairs from the upper end of the panel over the front to its right end."""
+    """Returns the stairs from the top of the panel along the front to its right end."""
     panel.autoscale_view()
     for axis in ("x", "y"):
         low, high = getattr(panel, f"get_{axis}lim")()

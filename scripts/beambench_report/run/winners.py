@@ -1,4 +1,4 @@
-"""Finds which structure wins where, each with its own best parameters, view by view.
+"""Finds the structure that wins in each view, every structure with its best parameters.
 
 The analysis of a run ranks every contender. Here a structure counts once, with the parameters and
 the order of the rays that give it the least trace time in the view. Ties with the fastest are
@@ -29,16 +29,16 @@ class Race:
     scene: str
     ray_kind: str
     ranked: pd.DataFrame
-    """Their best rows, with the columns of `with_ratios`."""
+    """The best rows of the structures, with the columns of `with_ratios`."""
 
     @property
     def tied(self) -> list[str]:
-        """Returns the fastest structure, and those that may be as fast."""
+        """Returns the fastest structure and the structures tied with it."""
         return list(self.ranked.loc[self.ranked["is_tied"], "structure"])
 
     @property
     def is_decided(self) -> bool:
-        """Is the second known to be tied with the fastest, or behind it?"""
+        """Whether the second is known to be tied with the fastest, or behind it."""
         return len(self.ranked) < 2 or self.ranked["rank"].iloc[1] in ("tied", "behind")
 
     @property
@@ -66,10 +66,10 @@ def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
 
 
 def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.DataFrame:
-    """Returns the rows of one view, the fastest first, compared with it.
+    """Returns the rows of one view, the fastest first, compared with the fastest.
 
-    `ratio` is that of the trace times, as in the plots. `is_tied` is true for the fastest, and for
-    those with the `rank` "tied".
+    `ratio` is the ratio of the trace times, as in the plots. `is_tied` is true for the fastest and
+    for rows with the `rank` "tied".
     """
     ranked = rows.sort_values("trace_ms")
     fastest = ranked.iloc[0]
@@ -100,8 +100,8 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
             for name, group in rows.groupby("structure")
         )
         lines = markdown_table(
-            ("structure", "times the fastest", "fastest or tied", "build, ms", "bytes a primitive",
-             "best parameters"),
+            ("structure", "times the fastest", "fastest or tied", "build, ms",
+             "bytes per primitive", "best parameters"),
             [
                 (
                     f"`{name}`",
@@ -130,7 +130,7 @@ def _by_scene(found: Sequence[Race]) -> str:
     rows = [(scene, *(words.get((scene, kind), "-") for kind in kinds)) for scene in scenes]
     lines = markdown_table(("scene", *kinds), rows)
     return (
-        "## By scene\n\nThe fastest, with those tied with it, and the next with its ratio. "
-        "Tied: by the 95% confidence interval of the ratio of their times, "
+        "## By scene\n\nThe fastest structures, including ties, and the next one with its ratio. "
+        "Ties are decided by the 95% confidence interval of the ratio of the times, "
         "as in the analysis of a run.\n\n" + "\n".join(lines) + "\n"
     )

@@ -1,4 +1,4 @@
-"""Best against best: each contender with its best parameters for the view."""
+"""Compares contenders at their best, each with its best parameters for the view."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -17,9 +17,9 @@ class Choice:
     """The parameters that were tried with several values."""
     tried: int
     is_edge: bool = False
-    """Is its level or grid the lowest or highest tried? A better one may lie beyond."""
+    """Whether the level or grid is the lowest or highest tried; a better one may lie beyond."""
     ratio: Measured | None = None
-    """Its time over that of the first contender's best."""
+    """The time of the cell over the best time of the first contender."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class BestTable:
 
 
 def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
-    """Returns the table of resolutions at which any contender had a choice; None without any."""
+    """Returns the table for resolutions with a choice of parameters; None if there are none."""
     structures = [*part.structures, *REFERENCES]
     resolutions = [
         resolution
@@ -88,7 +88,7 @@ def choose(candidates: Sequence[Cell]) -> Choice:
 
 
 def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
-    """Is it at an end of the levels or grids that were tried, among grids filled alike?"""
+    """Returns whether the best is at an end of the tried levels or grids filled alike."""
     fill = best.parameters.get("fill")
     alike = [cell.parameters for cell in timed if cell.parameters.get("fill") == fill]
     for name in ("max_level", "resolution"):
@@ -100,12 +100,12 @@ def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
 
 
 def _has(cell: Cell, values: dict[str, str]) -> bool:
-    """Does a cell have these values of the parameters that its version had?"""
+    """Returns whether a cell has these values, as far as its version had the parameters."""
     return all(cell.parameters.get(name, value) == value for name, value in values.items())
 
 
 def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
-    """Returns the forms of a contender: the thesis's own, and the best if we have others.
+    """Returns the forms of a contender: the thesis's own and, if there are others, any form.
 
     The thesis's beams do not hand over and test samples one by one; its hierarchy places objects
     beside terminal nodes.
@@ -123,7 +123,7 @@ def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
 
 
 def _is_second_pass(part: PrintedPart, cells: Cells, resolution: str) -> bool:
-    """Were any parameters other than the thesis's own tried here?"""
+    """Returns whether parameters other than the thesis's own were tried at this resolution."""
     own = {row.setting(part.scene, resolution) for row in part.rows}
     return any(
         cell.setting not in own

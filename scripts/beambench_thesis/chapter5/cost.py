@@ -1,5 +1,5 @@
-"""The cost formulas of section 5.3.3, and the sums by which `max_level=auto` weighs levels
-(accel/octree/choose_octree.cpp, accel/beam/beam_cost.cpp), fitted to counts and times.
+"""Fits the cost formulas of section 5.3.3 to counts and times, and likewise the sums by which
+`max_level=auto` compares levels (accel/octree/choose_octree.cpp, accel/beam/beam_cost.cpp).
 """
 
 import math
@@ -20,14 +20,14 @@ from beambench_thesis.paper.section import Section, SectionFigure, SectionTable,
 
 MIN_CELLS = 10
 _MIN_NANOSECONDS = 1e5  # below this, cold caches and the clock dominate, which no count explains
-_MIN_SCENES = 3  # from which on scenes can be resampled, or one be left out
+_MIN_SCENES = 3  # the fewest scenes for resampling, or for leaving one out
 _DRAWS = 1000
 _SEED = 1999
 
 
 @dataclass(frozen=True)
 class Observation:
-    """One cell: how often each term was counted, and nanoseconds."""
+    """One cell: the count of each term, and the time in nanoseconds."""
 
     cell: Cell
     counts: tuple[float, ...]
@@ -48,11 +48,11 @@ class Formula:
 
     title: str
     time: str
-    """The quantity that it predicts."""
+    """The predicted time, as the words after `time`: `of building, samet and beam`."""
     terms: tuple[Term, ...]
     observe: Callable[[Iterable[Cell]], list[Observation]]
     unit: str = "ms"
-    """The title of its figure."""
+    """The unit of the axes of its figure."""
 
 
 @dataclass(frozen=True)
@@ -62,22 +62,22 @@ class Fit:
     formula: Formula
     observations: tuple[Observation, ...]
     coefficients: tuple[Measured, ...]
-    """The 95% intervals, (nan, nan) with too few scenes."""
+    """The costs, with 95% intervals; their ends are NaN with too few scenes."""
     predicted: tuple[float, ...]
     r_squared: float
     errors: tuple[float, ...]
     """|predicted - measured| / measured."""
     cross_validation_errors: tuple[float, ...]
-    """The same with each scene predicted by the fit to all others; empty with too few scenes."""
+    """The errors if each scene is predicted by a fit to the others; empty with too few scenes."""
 
     @property
     def scenes(self) -> int:
-        """Returns the number of scenes that the cells come from."""
+        """Returns the number of scenes of the cells."""
         return len({observation.cell.scene for observation in self.observations})
 
 
 def thesis_formulas() -> tuple[Formula, Formula]:
-    """Returns the formulas for beams that pass empty leaves or end at occupied ones."""
+    """Returns the formulas for beams that pass empty leaves and beams at occupied leaves."""
     nonterminal = {
         "beams_nonterminal": Term("a beam: directions of exit", "C_d"),
         "beam_edges": Term("an edge met with a plane", "I_r-p"),
@@ -100,7 +100,7 @@ def thesis_formulas() -> tuple[Formula, Formula]:
         ),
         Formula(
             "Beams at occupied leaves",
-            "of all beams at occupied leaves of an image, with the rays that continue behind them",
+            "of all beams at occupied leaves of an image, including rays that continue behind them",
             tuple(occupied.values()),
             partial(_tasks, "beams_occupied_ns", tuple(occupied)),
         ),
@@ -188,7 +188,7 @@ def _errors(predicted: np.ndarray, times: np.ndarray) -> tuple[float, ...]:
     return tuple(map(float, np.abs(predicted - times) / times))
 
 
-# Observations of the formulas in a cell
+# Observations for the formulas, from the cells
 
 
 def _usable(cells: Iterable[Cell], *structures: str) -> Iterable[Cell]:
@@ -266,7 +266,7 @@ _NANOSECONDS = {"ms": 1e-6, "ns per ray": 1.0}
 
 
 def draw_fits(stem: str, fits: Sequence[Fit]) -> Plot:
-    """Draws a panel for each formula and a point for each cell; the line is exact prediction."""
+    """Draws a panel for each formula and a point per cell; on the line, predictions are exact."""
     figure, panels = new_figure(_HEIGHTS[len(fits)], 1, len(fits))
     for panel, one in zip(panels, fits, strict=True):
         scale = _NANOSECONDS[one.formula.unit]
@@ -305,19 +305,19 @@ def draw_fits(stem: str, fits: Sequence[Fit]) -> Plot:
 
 _WORDS = (
     "Section 5.3.3 expresses the time of the beams by two sums of counts, each multiplied by a "
-    "cost. Both are fitted here to every cell of beams with the thesis's parameters, whatever its "
-    "scene, level, resolution and samples, by least squares of the relative error and without "
+    "cost. Both sums are fitted to all cells of beams with the thesis's parameters, over all "
+    "scenes, levels, resolutions and samples, by least squares of the relative error and without "
     "negative costs. Counts and times are those of the counting pass, which times each beam "
     "separately. The 95% intervals come from a thousand samples of the scenes with replacement: "
     "they show how much a cost depends on the choice of scenes. A cost of 0 means that the other "
     "terms predict the times as well without it.",
-    "The sums below them are those by which max_level=auto compares the levels. Their costs are "
+    "The further sums are those by which max_level=auto compares the levels. Their costs are "
     "the constants of accel/octree/choose_octree.cpp and accel/beam/beam_cost.cpp; they are fitted "
     "to the timed passes.",
 )
 _CAPTION = (
-    "Every point is a cell; on the line, the counts predict its time exactly, and in the gray band "
-    "within a quarter."
+    "Every point is a cell. The counts predict its time exactly on the line, and to within 25% in "
+    "the gray band."
 )
 
 
@@ -368,7 +368,7 @@ def _costs(fits: Iterable[Fit]) -> SectionTable:
 
 
 def _quality(fits: Iterable[Fit]) -> SectionTable:
-    heads = ("cells", "scenes", "R2", "median error", "90% below", "median, scene left out")
+    heads = ("cells", "scenes", "R2", "median error", "90% below", "median error, scene left out")
     rows = (
         (
             f"{one.formula.title}: time {one.formula.time}",
@@ -386,8 +386,8 @@ def _quality(fits: Iterable[Fit]) -> SectionTable:
 def _finding(one: Fit) -> str:
     middle, most = np.percentile(one.errors, (50, 90))
     return (
-        f"{one.formula.title}: the sum predicts half of {len(one.observations):,} times to "
-        f"{_percent(middle)}, nine of ten to {_percent(most)}; R2 {one.r_squared:.3f}."
+        f"{one.formula.title}: of {len(one.observations):,} times, the sum predicts 50% to within "
+        f"{_percent(middle)} and 90% to within {_percent(most)}; R2 {one.r_squared:.3f}."
     )
 
 

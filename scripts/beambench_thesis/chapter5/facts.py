@@ -86,7 +86,7 @@ VISITED = "beam:max_level=8,max_objects=0"
 _SIX = 6
 _VISITS_WORDS = (
     "Section 5.3.1 takes level 6 from McNeill et al. (1992): from the sixth level on, a ray is "
-    "very unlikely to visit a given node, so beams would have few rays. The table counts, over "
+    "very unlikely to visit a given node, so beams would have few rays. The table counts, in "
     "octrees of level 8, the nodes that single rays pass through up to their first hit, and the "
     "leaves that beams reach. Deeper leaves exist only around the surfaces."
 )
@@ -125,8 +125,8 @@ def _visits_table(scene: str, rays: int, levels: pd.DataFrame) -> SectionTable:
         part = (number(level.rays), f"{level.rays / rays:.3%}")
         texts = (f"{count:,}" if count else DASH for count in counts)
         rows.append((f"{level.Index}", f"{level.nodes:,}", *part, *texts))
-    heads = "level, nodes, rays that visit a node, of all rays, leaves, occupied, "
-    heads += "visits of leaves by rays, by beams"
+    heads = "level, nodes, rays that visit a node, share of all rays, leaves, occupied leaves, "
+    heads += "visits of leaves by rays, visits of leaves by beams"
     title = f"{scene_title(scene)}, {VISITED}, {rays:,} rays"
     return section_table(title, (), heads.split(", "), rows)
 
@@ -207,9 +207,9 @@ def camera_section(directory: Path) -> Section | None:
             ),
         ),
         findings=(
-            "Pixels of exit beams depend on the camera as well as on the division of the octree: "
-            f"with {OBJECTS[-1]} objects per leaf they are {own:,} from the scene's own camera and "
-            f"{turned:,} from the turned one, over the same octree.",
+            "The number of pixels in exit beams depends on the camera as well as on the division "
+            f"of the octree: with {OBJECTS[-1]} objects per leaf, it is {own:,} from the scene's "
+            f"own camera and {turned:,} from the turned camera, in the same octree.",
         ),
     )
 

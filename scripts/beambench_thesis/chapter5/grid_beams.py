@@ -10,8 +10,8 @@ from beambench_thesis.paper.section import Section, section_table
 
 _WORDS = (
     "The thesis proposes beams through structures other than the octree, such as hierarchies of "
-    "grids (section 7.3). This is implemented by `grid-beam`: a beam passes the empty voxels of "
-    "the scene's grid and, where a voxel refers to many primitives, those of the grid inside it "
+    "grids (section 7.3). This is implemented by `grid-beam`: a beam passes through the empty "
+    "voxels of the scene's grid and, where a voxel has many primitives, of the grid inside it "
     "(Jevans and Wyvill 1989). Beams with few samples become single rays. The hits are those of "
     "single rays, bit for bit. The table has the trace times of single rays and of beams through "
     "the same grids, and the total times, building included, of beams through the fastest measured "
@@ -21,7 +21,7 @@ _WORDS = (
 
 @dataclass(frozen=True)
 class GridBeamRow:
-    """A scene at a resolution."""
+    """The times of a scene at one resolution."""
 
     beams: Cell
     rays: Cell

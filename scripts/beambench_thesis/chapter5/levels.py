@@ -30,7 +30,7 @@ from beambench_thesis.paper.section import (
 )
 
 TARGET = 0.10
-"""A choice with a smaller loss is good; 90% should be."""
+"""A choice with a smaller loss is good; 90% of the choices should be good."""
 _TARGET_SHARE = 0.9
 _AUTO = "auto"
 _WORST = 5
@@ -56,7 +56,7 @@ class LevelChoice:
 
     @property
     def is_best_at_end(self) -> bool:
-        """Is the best the lowest or the highest that was measured?"""
+        """Whether the best level is the lowest or the highest that was measured."""
         return self.best in (min(self.fixed), max(self.fixed))
 
     @property
@@ -95,9 +95,7 @@ class Losses:
 
     @property
     def good_levels(self) -> tuple[int, int]:
-        """Returns the number of chosen levels that lose less than the target, and of all measured
-        ones.
-        """
+        """Returns how many chosen levels lose less than the target, and how many were measured."""
         losses = [own for choice in self.choices if (own := choice.loss_of_level) is not None]
         return sum(loss < TARGET for loss in losses), len(losses)
 
@@ -159,7 +157,7 @@ _HOLLOW = {"markersize": 5.5, "markerfacecolor": "none", "markeredgewidth": 0.7}
 def draw_losses(stem: str, choices: Sequence[LevelChoice]) -> Plot:
     """Draws a row for each scene and a panel for each structure.
 
-    Filled markers include the cost of choosing; hollow ones show the loss of the chosen level
+    Filled markers include the cost of choosing; hollow markers show the loss of the chosen level
     alone.
     """
     structures = list(dict.fromkeys(choice.auto.structure for choice in choices))
@@ -176,7 +174,7 @@ def draw_losses(stem: str, choices: Sequence[LevelChoice]) -> Plot:
     for panel in panels[1:]:
         panel.tick_params(labelleft=False)
     _legend(figure, sizes)
-    return Plot(stem, figure, "What choosing the level loses")
+    return Plot(stem, figure, "Loss from choosing the level automatically")
 
 
 def _draw(
@@ -216,7 +214,7 @@ def _legend(figure: Figure, sizes: Sequence[str]) -> None:
         Line2D([], [], marker=_MARKERS[index % len(_MARKERS)], markersize=4, label=size, **gray)
         for index, size in enumerate(sizes)
     ]
-    own = Line2D([], [], marker="o", label="the level by itself", **_HOLLOW, **gray)
+    own = Line2D([], [], marker="o", label="the level alone", **_HOLLOW, **gray)
     legend_below(figure, len(sizes) + 1, handles=[*shapes, own])
 
 
@@ -227,14 +225,14 @@ _WORDS = (
     "With max_level=auto, samet and beam choose the octree's level from a few rays, the camera and "
     "the resolution, by sums of counts like those of section 5.3.3. Each choice is compared with "
     "the best of the fixed levels that were measured for the same scene and resolution. The loss "
-    "is its time, building and choosing included, divided by that of the best level, minus 1; the "
-    "level's own loss is without the cost of choosing. Times are compared in clock cycles if these "
-    "were counted. A loss below zero means that the cell is faster than every fixed level, by "
-    "chance or by a level that was not measured."
+    "is the time of the choice, building and choosing included, divided by that of the best level, "
+    "minus 1; the level's own loss excludes the cost of choosing. Times are compared in clock "
+    "cycles if these were counted. A loss below zero means that the choice is faster than every "
+    "fixed level, by chance or because the chosen level was not measured."
 )
 _CAPTION = (
-    "Filled: with the choosing; hollow: only the chosen level, if it was measured. Gray: a loss of "
-    "more than a tenth. The axis is linear to 10% and logarithmic beyond."
+    "Filled: including the choosing; hollow: only the chosen level, if it was measured. Gray: a "
+    "loss of more than 10%. The axis is linear to 10% and logarithmic beyond."
 )
 
 
@@ -246,7 +244,7 @@ def levels_section(cells: Iterable[Cell]) -> Section | None:
     structures = list(dict.fromkeys(choice.auto.structure for choice in choices))
     parts = {name: losses(choices, name) for name in structures}
     every = losses(choices)
-    title = "What choosing the level loses against the best level"
+    title = "Loss of the automatic choice against the best level"
     met = "met" if every.share >= _TARGET_SHARE else "missed"
     return Section(
         "levels",
@@ -254,13 +252,13 @@ def levels_section(cells: Iterable[Cell]) -> Section | None:
         (_WORDS,),
         (
             _summary(parts | {"both": every} if len(parts) > 1 else parts),
-            _table("The five that lose the most", every.worst),
+            _table("The five choices with the largest losses", every.worst),
             _table("Every choice", choices, is_long=True),
         ),
         (SectionFigure(STEM, title, _CAPTION, partial(draw_losses, STEM, choices)),),
         (
             f"{every.good} of {len(every.choices)} choices ({every.share:.0%}) lose less than "
-            f"{TARGET:.0%}; the target, nine of ten, is {met}. The median loss is "
+            f"{TARGET:.0%}; the target, 90% of them, is {met}. The median loss is "
             f"{_percent(every.median)}.",
         ),
     )
@@ -269,7 +267,7 @@ def levels_section(cells: Iterable[Cell]) -> Section | None:
 def levels_of_runs(runs: Sequence[Path], file: Path | None = None) -> list[Path] | str:
     """Returns the section on some runs as text, or writes FILE.md and its figure.
 
-    Raises Problem if a run cannot be read, or none has a choice.
+    Raises Problem if a run cannot be read, or if no run has a choice.
     """
     cells: list[Cell] = []
     for run in runs:
@@ -284,7 +282,7 @@ def levels_of_runs(runs: Sequence[Path], file: Path | None = None) -> list[Path]
     if section is None:
         names = ", ".join(str(run) for run in runs)
         raise Problem(
-            f"{names}: no cell of max_level=auto has two fixed levels beside it; measure "
+            f"{names}: no cell with max_level=auto has two cells with fixed levels; measure "
             "harness/measure/sweeps/levels.json"
         )
     if file is None:
@@ -311,7 +309,7 @@ def _summary(parts: dict[str, Losses]) -> SectionTable:
 
 
 def _table(title: str, choices: Sequence[LevelChoice], *, is_long: bool = False) -> SectionTable:
-    heads = "chosen, best, measured, time of auto, of the best, loss, level's own loss".split(", ")
+    heads = "chosen, best, measured, time of auto, best time, loss, level's own loss".split(", ")
     rows = map(_row, choices)
     return section_table(title, ("structure", "scene", "resolution"), heads, rows, is_long=is_long)
 

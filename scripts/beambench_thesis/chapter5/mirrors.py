@@ -14,7 +14,7 @@ from beambench_thesis.paper.section import Section, section_table
 
 @dataclass(frozen=True)
 class MirrorRun:
-    """The reflections in all mirrors of a picture, by single rays and by beams; one octree."""
+    """The reflections in all mirrors of a picture, by single rays and by beams in one octree."""
 
     scene: str
     structure: str
@@ -45,7 +45,7 @@ def read_mirrors(files: Iterable[Path]) -> tuple[list[MirrorRun], list[str]]:
 
 
 def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
-    """Returns the section, scene by scene; None without any."""
+    """Returns the section, scene by scene; None if there are no runs."""
     if not runs:
         return None
     words = (
@@ -70,12 +70,12 @@ def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
         for run in ordered
     ]
     table = section_table(
-        "What planar mirrors show",
+        "Reflections in planar mirrors",
         ("scene", "resolution", "structure"),
         ("mirrors seen", "rays", "rays, ms", "beams, ms", "rays over beams"),
         rows,
     )
-    return Section("mirrors", "Beams of what mirrors show", (words,), (table,), (), _findings(runs))
+    return Section("mirrors", "Beams reflected by mirrors", (words,), (table,), (), _findings(runs))
 
 
 def _findings(runs: Sequence[MirrorRun]) -> tuple[str, ...]:

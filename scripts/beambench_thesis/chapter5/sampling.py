@@ -68,8 +68,9 @@ class Comparison:
 
     @property
     def thesis(self) -> Point | None:
-        """Returns the thesis's setting, if it was tried: five samples wherever a beam does not
-        leave.
+        """Returns the thesis's setting, if it was tried.
+
+        It has five samples in each pixel, except where a beam leaves the scene.
         """
         own = (UNIFORM, "5")
         return next((point for point in self.points if (point.method, point.setting) == own), None)
@@ -91,8 +92,8 @@ class Comparison:
         """Returns the least time in which a method reaches at most this error, and whether it is
         exact.
 
-        It is exact if interpolated, and not if it is that of a measured setting with a smaller
-        error. None if every setting has a larger error.
+        The time is exact if it is interpolated. If it is the time of a measured setting with a
+        smaller error, it is an upper bound. None if every setting has a larger error.
         """
         crossing = self.time_at_error(method, error)
         settings = [point.milliseconds for point in self.of(method) if point.error <= error]
@@ -164,7 +165,7 @@ def _between(points: Sequence[tuple[float, float]], at: float) -> float | None:
 # The figure
 
 _HEIGHT = 4.2  # inches
-# All are the beams': object space, which only they can choose in, has their color.
+# All methods use beams. Object space, in which only beams can choose samples, has their color.
 _LOOKS = {
     UNIFORM: Look(SOFT, "o", "--"),
     _OBJECT_SPACE: Look(structure_color("beam"), "s", "-"),
@@ -214,8 +215,7 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
 
 
 def _name_settings(panel: Axes, lines: Mapping[str, Sequence[Point]], ringed: Point | None) -> None:
-    """Labels every point with its setting, clear of the lines, or only line ends if there is no
-    room.
+    """Labels every point with its setting, clear of the lines; without room, only line ends.
 
     The ringed point is named in the legend.
     """
@@ -239,23 +239,23 @@ def _name_settings(panel: Axes, lines: Mapping[str, Sequence[Point]], ringed: Po
 # The section of the report, also written as separate files
 
 _WORDS = (
-    "The thesis takes five samples in every pixel of a beam that ends at an occupied leaf, and "
-    "leaves choosing their number by the leaf to future work. This is implemented here: 1, 5 or 25 "
-    "samples, by the number of primitives of the leaf over its width in pixels (object-space). It "
-    "is compared with the same number in every such pixel (uniform), and with more samples where a "
-    "pixel differs from its neighbors (image-space). An error is the RMS difference, on a 0-255 "
-    "scale, from the picture of 64 samples per pixel in preview shading; a time includes tracing "
-    "and choosing. A setting of two numbers states the values from which a pixel gets 5 and 25 "
-    "samples.",
+    "The thesis takes five samples in every pixel of a beam that ends at an occupied leaf. It "
+    "proposes, as future work, to choose this number by the leaf. Here, a pixel gets 1, 5 or 25 "
+    "samples, by the number of primitives in the leaf over its width in pixels (object-space). "
+    "This is compared with equal numbers in all such pixels (uniform), and with more samples in "
+    "pixels that differ from their neighbors (image-space). An error is the RMS difference, on a "
+    "0-255 scale, from the picture with 64 samples per pixel in preview shading; times include "
+    "tracing and choosing. A setting of two numbers states the values from which a pixel gets 5 "
+    "and 25 samples.",
 )
 _CAPTION = (
-    "Every point is a setting, whose values stand beside it. Further left is faster, further down "
-    "is better; ringed is what the thesis did."
+    "Every point is a setting, labeled with its values. Further left is faster, further down is "
+    "better; a ring marks the thesis's setting."
 )
 
 
 def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
-    """Returns the section, scene by scene; None without any."""
+    """Returns the section, scene by scene; None if there are no comparisons."""
     if not comparisons:
         return None
     stems = file_stems(f"sampling {comparison.title}" for comparison in comparisons).values()
@@ -276,7 +276,7 @@ def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
 
 
 def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
-    """Writes DIRECTORY/sampling.md and a plot for each file. Raises Problem for a bad one."""
+    """Writes DIRECTORY/sampling.md and a plot for each file. Raises Problem for a bad file."""
     comparisons, unread = read_comparisons(files)
     if unread:
         raise Problem(unread[0])
@@ -348,11 +348,11 @@ def _findings(comparisons: Sequence[Comparison]) -> Iterable[str]:
         faster = sum(share < 1 for share in shares)
         beyond = len(tried) - len(shares)
         at_most = "" if all(reached is None or reached[1] for reached in found) else "at most "
-        larger = f"; in {beyond} every setting has a larger error" if beyond else ""
+        larger = f"; in {beyond} of them, every setting has a larger error" if beyond else ""
         yield (
-            f"{method} reaches the error of the thesis's five samples, or a smaller one, in less "
-            f"time in {faster} of the {len(tried)} scenes that were tried, by the median of "
-            f"{len(shares)} in {at_most}{median(shares):.0%} of it{larger}."
+            f"{method} reaches the error of the thesis's five samples, or a smaller error, in less "
+            f"time in {faster} of the {len(tried)} scenes that were tried; the median, of "
+            f"{len(shares)}, is {at_most}{median(shares):.0%} of the thesis's time{larger}."
         )
 
 

@@ -18,10 +18,12 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     )
     cluster.set_defaults(handler=run_step)
     steps = cluster.add_subparsers(dest="step", required=True)
-    first = steps.add_parser("record", help="record what the beams of two scenes cost")
-    second = steps.add_parser("simulate", help="simulate them on clusters of 2 to 1,024 processes")
-    split = steps.add_parser("split", help="simulate scenes divided among machines, 1 to 64 parts")
-    real = steps.add_parser("measure", help="time the same program by mpirun on 1 to 3 processes")
+    first = steps.add_parser(
+        "record", help="record the costs of the beams of two scenes and a large picture"
+    )
+    second = steps.add_parser("simulate", help="simulate clusters of 2 to 1,024 processes")
+    split = steps.add_parser("split", help="simulate scenes divided into 1 to 64 parts")
+    real = steps.add_parser("measure", help="time the program with mpirun, on 1 to 3 processes")
     last = steps.add_parser("write", help="write DIR/report.md and its figures")
     for step in (first, second, split, real, last):
         step.add_argument("folder", type=Path, metavar="DIR")
@@ -40,25 +42,39 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
         )
     for step in (first, split, real):
         step.add_argument(
-            "--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3"
+            "--repeats",
+            type=int,
+            default=3,
+            metavar="N",
+            help="take medians of N runs; by default 3",
         )
         step.add_argument(
-            "--resolution", default="1280x1024", metavar="WxH", help="1280x1024, as in the thesis"
+            "--resolution",
+            default="1280x1024",
+            metavar="WxH",
+            help="by default 1280x1024, as in the thesis",
         )
     first.add_argument(
-        "--large", default="8192x8192", metavar="WxH", help=f"of {LARGE}; 8192x8192, one sample"
+        "--large",
+        default="8192x8192",
+        metavar="WxH",
+        help=f"resolution of {LARGE}; by default 8192x8192",
     )
     for step, most, things in ((second, 1024, "processes"), (split, 64, "parts")):
         step.add_argument(
-            "--most", type=int, default=most, metavar="N", help=f"no more than N {things}; {most}"
+            "--most",
+            type=int,
+            default=most,
+            metavar="N",
+            help=f"at most N {things}; by default {most}",
         )
     second.add_argument(
-        "--jobs", type=int, default=1, metavar="N", help="N simulations at a time; 1"
+        "--jobs", type=int, default=1, metavar="N", help="run N simulations at a time; by default 1"
     )
 
 
 def run_step(options: argparse.Namespace) -> list[Path]:
-    """Runs one step; returns what was written."""
+    """Runs one step; returns the files that it wrote."""
     if options.step != "write":
         options.program = options.program.absolute()  # `./bc` is not the `bc` of the system
     if getattr(options, "repeats", 1) < 1:

@@ -23,7 +23,7 @@ _SHOWN = (8, 15, 32, 64, 128, 256, 512, 1024)
 def _divided(simulations: pd.DataFrame) -> pd.DataFrame:
     """Returns runs of the thesis's scenes on switched networks: static divisions and their rivals.
 
-    Empty if no division was simulated.
+    The table is empty if no division was simulated.
     """
     rows = switched(rows_with(simulations, options=_COMPARED, machines=EQUAL_MACHINES))
     rows = rows[rows["scene"].ne(LARGE) & (rows["consumers"] + 1).isin(_SHOWN)]
@@ -42,7 +42,7 @@ def _large(simulations: pd.DataFrame) -> pd.DataFrame:
 
 
 def division_plots(simulations: pd.DataFrame) -> list[Plot]:
-    """Plots efficiency over the processes, for each division and for the large picture."""
+    """Plots efficiency over the number of processes, by division and for the large picture."""
     plots = []
     rows = _divided(simulations)
     if not rows.empty:
@@ -124,7 +124,7 @@ def _profile(rows: pd.DataFrame) -> list[str]:
         for _, run in most.iterrows()
     ]
     heads = (
-        "machines of; work; seconds; to build; consumers busy, mean; at most; producer busy; "
-        "messages out; efficiency; of tracing alone"
+        "machines of; work; seconds; seconds to build; consumers busy, mean; consumers busy, most; "
+        "producer busy; messages out; efficiency; efficiency of tracing alone"
     )
     return markdown_table(heads.split("; "), lines)

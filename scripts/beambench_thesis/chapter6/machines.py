@@ -61,7 +61,7 @@ MESSAGES_OF_TODAY = Messages(1e-6, 1e-10, 2e-7)
 BYTES_PER_SAMPLE_OF_1999 = 8 / 5
 
 
-# Table 5.5 was measured at 350 MHz, the cluster ran at 330.
+# Table 5.5 was measured at 350 MHz; the cluster ran at 330 MHz.
 _CLOCKS = 350 / 330
 TRACED = "gato-bill"
 
@@ -73,8 +73,8 @@ class Recorded:
     build_seconds: float
     walk_seconds: float
     work_seconds: float
-    samples: int  # of the whole picture, leaving beams' included
-    pre_pass_seconds: float = 0.0  # to estimate the costs of windows
+    samples: int  # of the whole picture, including those of beams that leave
+    pre_pass_seconds: float = 0.0  # the time to estimate the costs of windows
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ AS_OURS, ALL_WALKING, ALL_BUILDING = ("as ours", "all walking", "all building")
 
 
 def slowness_of_1999(recorded: Recorded, constant_is: str = AS_OURS) -> Slowness:
-    """Derives the factors from our picture of the scene; `constant_is` divides the constant."""
+    """Derives the factors from our picture; `constant_is` states how to divide the constant."""
     constant, per_ray = thesis_seconds()
     work = per_ray * recorded.samples / recorded.work_seconds
     if constant_is == ALL_WALKING:

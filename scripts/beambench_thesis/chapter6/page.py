@@ -1,4 +1,4 @@
-"""Rendering the parts of the cluster's page from templates."""
+"""Renders the parts of the cluster's page from templates."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Figures 6.3 and 6.4 of the thesis by our simulation, and figures beyond the thesis."""
+"""Draws figures 6.3 and 6.4 of the thesis from our simulations, and further figures."""
 
 from collections.abc import Sequence
 
@@ -47,16 +47,16 @@ def _times(rows: pd.DataFrame) -> Plot:
         panel.set_ylim(0, 1.1)
     _overlay_thesis(counted, list(dict.fromkeys(rows["scene"])))
     every, alone = (
-        "processors, the producer's among them",
+        "processors, including the producer's",
         "d) Efficiency, the producer not counted",
     )
     name_panel(seconds, "a) Time", every, f"seconds {LOWER}")
     seconds.set_ylim(bottom=0)
-    name_panel(speed_up, "b) Speed-up", every, f"times {HIGHER}")
-    name_panel(counted, "c) Efficiency", every, f"speed-up / processors {HIGHER}")
-    name_panel(uncounted, alone, "consumers", f"speed-up / consumers {HIGHER}")
+    name_panel(speed_up, "b) Speedup", every, f"times {HIGHER}")
+    name_panel(counted, "c) Efficiency", every, f"speedup / processors {HIGHER}")
+    name_panel(uncounted, alone, "consumers", f"speedup / consumers {HIGHER}")
     seconds.legend(fontsize=7.5, frameon=False)
-    return Plot("figure-6.3", figure, "time, speed-up and efficiency of 1 to 14 consumers")
+    return Plot("figure-6.3", figure, "time, speedup and efficiency of 1 to 14 consumers")
 
 
 def _overlay_thesis(efficiency: Axes, scenes: Sequence[str]) -> None:
@@ -97,7 +97,7 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         members = processes[processes["simulation"].eq(row.simulation)]
         consumers = members[members["role"].eq("consumer")]
         beams, times = panels[column], panels[column + len(rows)]
-        # From 0, so that a small difference looks small.
+        # The axis of beams begins at 0, so that a small difference looks small.
         beams.plot(consumers["process"], consumers["tasks"], "o", color=LINE_COLORS[0])
         times.plot(
             consumers["process"], consumers["busy_seconds"], "o", color=LINE_COLORS[0], label="busy"
@@ -143,11 +143,11 @@ def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
         scale_axis(speed_up, "y", [*of_scene["speed_up"], *ends])
         for panel in (speed_up, busy):
             log_axis(panel)
-        name_panel(speed_up, f"{scene}: speed-up", "processes", f"times {HIGHER}")
+        name_panel(speed_up, f"{scene}: speedup", "processes", f"times {HIGHER}")
         name_panel(busy, f"{scene}: the producer is busy", "processes", "% of the time")
         busy.set_ylim(0, 105)
     panels[0].legend(fontsize=7, frameon=False)
-    summary = f"speed-up and the producer's load on machines of {MACHINES_OF[era]}"
+    summary = f"speedup and the producer's load (machines: {MACHINES_OF[era]})"
     return Plot(f"many-processes-{era}", figure, summary)
 
 

@@ -1,4 +1,4 @@
-"""The MPI program on this machine: costs of each task in one process, and times of several."""
+"""Runs the MPI program here: records task costs in one process, and times several processes."""
 
 import json
 import os
@@ -19,8 +19,8 @@ from beambench_thesis.chapter6.page import rendered
 SCENES = ("gato-bill", "torre-eiffel")
 LARGE = "tetra:n=8"
 BEAMS, BLOCKS, ROWS, WINDOWS, TILES = WORKS = ("beams", "blocks", "rows", "windows", "tiles")
-# How each kind of work is recorded. Tiles are recorded one by one, and whoever traces them keeps
-# their results, which the times include.
+# How each kind of work is recorded. Tiles are recorded one by one; the process that traces a tile
+# keeps its results, and the times include this.
 _RECORDED_WITH: dict[str, tuple[str, ...]] = {
     BEAMS: ("--work", "beams"),
     BLOCKS: ("--work", "blocks"),
@@ -76,7 +76,7 @@ class Picture:
 def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -> list[Path]:
     """Writes FOLDER/tasks/SCENE-WORK.csv and FOLDER/recorded.json.
 
-    The costs of a task are the medians of the repeats; everything else is equal in all of them.
+    The costs of a task are the medians of the repeats; everything else is equal in all repeats.
     """
     (folder / "tasks").mkdir(parents=True, exist_ok=True)
     (folder / "answers.jsonl").unlink(missing_ok=True)  # results of simulations with other costs
@@ -107,7 +107,7 @@ def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -
 
 
 def tasks_file(folder: Path, scene: str, work: str) -> Path:
-    """Returns the path of the tasks of a scene."""
+    """Returns the path of the file with the tasks of a scene."""
     return folder / "tasks" / f"{scene}-{work}.csv"
 
 
@@ -118,7 +118,7 @@ def read_recorded(folder: Path) -> dict[tuple[str, str], Recorded]:
         sums = load_json(path)
     except (OSError, ValueError):
         raise Problem(
-            f"{path}: it is not there or not JSON; write it with: "
+            f"{path}: it is missing or not JSON; write it with: "
             "python -m beambench_thesis cluster record DIR"
         ) from None
     names = ("build_seconds", "walk_seconds", "work_seconds", "samples")
@@ -168,7 +168,9 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
                 }
             )
         if len(hashes) != 1:
-            raise Problem(f"{picture.scene}: {len(hashes)} different pictures; that is a fault")
+            raise Problem(
+                f"{picture.scene}: {len(hashes)} different pictures; this is a bug in beambench"
+            )
     folder.mkdir(parents=True, exist_ok=True)
     return [write_text(folder / MEASURED, csv_of(pd.DataFrame(rows)))]
 
@@ -193,7 +195,7 @@ def measured_section(folder: Path) -> str | None:
         for _, scene in rows.groupby("scene", sort=False)
         for _, row in scene.iterrows()
     )
-    heads = "scene; processes; seconds; times as fast as one process alone; producer busy; "
+    heads = "scene; processes; seconds; speedup over one process alone; producer busy; "
     heads += "messages out, back; MB out, back"
     return rendered("measured", first=first, rows=markdown_table(heads.split("; "), lines))
 
@@ -219,7 +221,9 @@ def _medians(runs: list[pd.DataFrame]) -> pd.DataFrame:
     first = runs[0]
     for other in runs[1:]:
         if not other.drop(columns=_COSTS).equals(first.drop(columns=_COSTS)):
-            raise Problem("two runs of one process made other tasks; that is a fault of beambench")
+            raise Problem(
+                "two runs of one process made different tasks; this is a bug in beambench"
+            )
     rows = first.copy()
     for cost in _COSTS:
         rows[cost] = pd.concat([each[cost] for each in runs], axis=1).median(axis=1).round(9)

@@ -1,4 +1,4 @@
-"""Results of simulations as CSV: a row for each simulation, and one for each of its processes."""
+"""Reads and writes results as CSV: a row for each simulation, and for each of its processes."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -21,27 +21,27 @@ _OF_SIMULATIONS = (
     "accept_seconds speed_up efficiency efficiency_of_consumers producer_busy "
     "messages_from_producer bytes_from_producer messages_to_producer bytes_to_producer"
 ).split()
-# The consumers' columns; many consumers are not listed.
+# Columns on all consumers together, which are not listed one by one if they are many.
 _PROFILE = ["busy_mean", "busy_max"]
 _OF_PROCESSES = (
     "simulation process role tasks samples busy_seconds wait_seconds last_seconds"
 ).split()
-_MAX_PROCESSES = 32  # of a simulation with more, the processes are not listed
+_MAX_PROCESSES = 32  # the processes of larger simulations are not listed
 _REMEDY = "write it with: python -m beambench_thesis cluster simulate DIR"
 
 
 def is_cluster_folder(folder: Path) -> bool:
-    """Is it a folder that `cluster simulate` wrote?"""
+    """Returns whether `cluster simulate` wrote this folder."""
     return (folder / SIMULATIONS).is_file()
 
 
 def read_simulations(folder: Path) -> pd.DataFrame:
-    """Reads a table. Raises Problem if it is missing or lacks a column."""
+    """Reads the table of simulations. Raises Problem if it is missing or lacks a column."""
     return read_table(folder / SIMULATIONS, _OF_SIMULATIONS, _REMEDY, {"era": str})
 
 
 def read_processes(folder: Path) -> pd.DataFrame:
-    """Reads a table. Raises Problem if it is missing or lacks a column."""
+    """Reads the table of processes. Raises Problem if it is missing or lacks a column."""
     return read_table(folder / PROCESSES, _OF_PROCESSES, _REMEDY)
 
 

@@ -101,7 +101,7 @@ def scene_divisions_section(rows: pd.DataFrame) -> str:
         for each in group.assign(work=work_of).itertuples()
     )
     heads = (
-        "scene, division, parts, traced ms, speed-up, efficiency, balance, busy, work, "
+        "scene, division, parts, traced ms, speedup, efficiency, balance, busy, work, "
         "rays handed over, MB of the largest part, build ms"
     )
     return rendered(

@@ -1,4 +1,4 @@
-"""The list of simulations, and running the simulator for each."""
+"""Lists the simulations, and runs the simulator for each."""
 
 import json
 import sys
@@ -45,9 +45,9 @@ OLD, TODAY = ERAS = ("1999", "today")
 CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
 MACHINES_OF = {OLD: "1999, 100 Mbit/s", TODAY: "today, 10 Gbit/s"}
 STATIONS = 15
-MANY = tuple(2**power - 1 for power in range(4, 11))  # 16 to 1,024 processes, the producer's one
+MANY = tuple(2**power - 1 for power in range(4, 11))  # plus the producer: 16 to 1,024 processes
 
-# Ideas that the thesis left for future work, each against its own scheme.
+# Ideas that the thesis left for future work, each compared with the thesis's own scheme.
 OPTIONS: dict[str, tuple[str, ...]] = {
     THESIS_OPTIONS: (),
     "8 beams a message": ("--batch", "8"),
@@ -102,9 +102,9 @@ class Simulation:
     options: str = THESIS_OPTIONS
     machines: str = EQUAL_MACHINES
     own_messages: bool = False
-    """Are results as our program sends them, 8 bytes a sample, instead of the thesis's pixels?"""
+    """Whether results are sent as by our program, 8 bytes per sample, not the thesis's pixels."""
     constant_is: str = AS_OURS
-    """How to divide those seconds of the thesis that do not grow with the rays (machines.py)."""
+    """How the thesis's seconds that do not grow with the rays are divided (machines.py)."""
 
     @property
     def work(self) -> str:
@@ -129,7 +129,7 @@ def simulations(scenes: tuple[str, ...], *, most: int = 1024) -> list[Simulation
     counts = (STATIONS // 2, STATIONS - 1, *MANY)
     every = [
         *(each for scene in scenes for each in _thesis(scene)),
-        # When the producer saturates, and the effect of each option.
+        # To show when the producer saturates, and the effect of each option.
         *(each for scene in scenes for each in _on_both(scene, OPTIONS, counts)),
         *(each for scene in scenes for each in _on_both(scene, DIVISIONS, counts)),
         *_on_both(LARGE, LARGE_OPTIONS, MANY),
@@ -144,7 +144,7 @@ def _old(scene: str, network: Network, consumers: int) -> Simulation:
 
 
 def _thesis(scene: str) -> list[Simulation]:
-    """Simulates figures 6.3 and 6.4: 1 to 14 consumers, and more until the producer saturates."""
+    """Returns simulations for figures 6.3 and 6.4, and with more consumers until saturation."""
     settings = product((SHARED, SWITCHED), (*range(1, STATIONS), 31, 63))
     return [_old(scene, network, consumers) for network, consumers in settings]
 
@@ -212,7 +212,7 @@ class ResultCache:
 
 
 def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int = 1) -> list[Path]:
-    """Writes FOLDER/simulations.csv and processes.csv from the recordings there.
+    """Writes FOLDER/simulations.csv and processes.csv from the recordings in FOLDER.
 
     Runs `jobs` simulations at a time. Earlier results in FOLDER/answers.jsonl are reused.
     """
@@ -232,10 +232,10 @@ def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int 
 
 
 def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS_OURS) -> Slowness:
-    """Returns the slowness, from the scene for which the thesis states seconds."""
+    """Returns the slowness, by the scene for which the thesis states seconds."""
     known = recorded.get((TRACED, BEAMS))
     if known is None:
-        raise Problem(f"{TRACED} was not recorded, by which machines of 1999 are calibrated")
+        raise Problem(f"{TRACED} was not recorded; the machines of 1999 are calibrated by it")
     return slowness_of_1999(known, constant_is)
 
 
@@ -259,7 +259,7 @@ def _simulate(
     result = cache.result(
         [tasks.name, *arguments], [str(program), "cluster", str(tasks), *arguments]
     )
-    # Everything distributed is compared with the sequential beam tracer.
+    # All distributed runs are compared with the sequential beam tracer.
     beams = recorded[simulation.scene, BEAMS]
     sequential = (
         beams.build_seconds * slow.build

@@ -1,8 +1,8 @@
-"""A divided scene (`--split`) on simulated clusters: growth of time, traffic and memory with parts.
+"""Simulates divided scenes (`--split`): time, traffic and memory by the number of parts.
 
 The scene is really traced during the simulation, so the times of one run depend on the state of
-this machine: medians of several runs are stored. Machines of 1999 are as in the other simulations
-(`machines.py`).
+this machine. Of several runs, the one with the median time is stored. Machines of 1999 are as in
+the other simulations (`machines.py`).
 """
 
 import sys
@@ -57,8 +57,8 @@ def _largest(quantity: str) -> Callable[[dict], float]:
     return lambda run: max(process[quantity] for process in run["processes"])
 
 
-# Columns of the tables, medians of several runs. Processor seconds are this machine's, summed over
-# all processes.
+# Columns of the tables, from the run with the median time. Processor seconds are this machine's,
+# summed over all processes.
 _OF_RUN: dict[str, Callable[[dict], object]] = {
     "processes": lambda run: len(run["processes"]),
     # Simulated: from when the last process is ready until the picture is complete.
@@ -79,8 +79,8 @@ _OF_RUN: dict[str, Callable[[dict], object]] = {
     "largest_bytes": _largest("bytes"),  # scene and octree of the largest part
     "result_hash": lambda run: run["result_hash"],
 }
-# The speedup is of tracing. Each process builds and measures only once, so the longest build of
-# many is chance.
+# Speedups are of tracing alone: each process builds only once, so the longest of many builds is a
+# matter of chance.
 _SETTING = ("era", "scene", "structure", "resolution", "processes", "traced_seconds")
 COLUMNS = tuple(dict.fromkeys((*_SETTING, "speed_up", "efficiency", *_OF_RUN)))
 
@@ -123,8 +123,8 @@ class Runs:
         whole = rows.groupby("scene")["result_hash"].transform("first")
         for row in rows[rows["result_hash"] != whole].itertuples():
             raise Problem(
-                f"{row.scene} in {row.processes} parts is another picture than the whole; that is "
-                "a fault of beambench"
+                f"{row.scene} in {row.processes} parts is a different picture than the whole; this "
+                "is a bug in beambench"
             )
         alone = rows.groupby(["era", "scene"])["traced_seconds"].transform("first")
         rows["speed_up"] = alone / rows["traced_seconds"]
@@ -178,7 +178,7 @@ def arguments_of(
 
 
 STEM = "divided-scenes"
-_SUMMARY = "divided scenes: speed-up, memory of the largest part, traffic"
+_SUMMARY = "divided scenes: speedup, memory of the largest part, traffic"
 
 
 def split_plot(rows: pd.DataFrame) -> Plot:
@@ -192,7 +192,7 @@ def split_plot(rows: pd.DataFrame) -> Plot:
             panel.plot(group["processes"], group["speed_up"], label=scene, **line_look(index))
         panel.plot(of_era["processes"], of_era["processes"], **IDEAL)
         log_axis(panel, "y")
-        name_panel(panel, f"Speed-up, {MACHINES_OF[era]}", "parts", f"times {HIGHER}")
+        name_panel(panel, f"Speedup, {MACHINES_OF[era]}", "parts", f"times {HIGHER}")
     last = rows[rows["era"].eq(eras[-1])]
     for index, (_, group) in enumerate(last.groupby("scene", sort=False)):
         look = line_look(index)
@@ -224,7 +224,7 @@ def split_section(rows: pd.DataFrame) -> str:
 
 
 def share_of_memory(group: pd.DataFrame) -> pd.Series:
-    """Returns the memory of each part as a share of one process's memory."""
+    """Returns the memory of the largest part as a share of that of the first row."""
     return group["largest_bytes"] / group["largest_bytes"].iloc[0]
 
 

@@ -1,1 +1,1 @@
-"""The claims of the thesis: rules, and their verdicts by its own figures and by a run's."""
+"""The claims of the thesis: rules, and verdicts by the thesis's figures and by runs."""

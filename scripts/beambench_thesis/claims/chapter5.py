@@ -1,4 +1,4 @@
-"""The rules: the measurements by which each claim of the thesis's chapter 5 holds.
+"""The rules that decide by measurements whether the claims of the thesis's chapter 5 hold.
 
 A rule returns one check for each cell of a table; `verdict.py` combines them into one verdict. Each
 rule's docstring states its thresholds. Seconds include building the structure, and all structures
@@ -53,7 +53,7 @@ ALL_SCENES = tuple(
     Question.OCTREE,
 )
 def more_objects_are_slower(e: Evidence) -> list[Check]:
-    """Each step, 0 to 10 to 20 to 40 objects, takes longer at each resolution."""
+    """The time rises at each step from 0 to 10, 20 and 40 objects, at each resolution."""
     return [
         below(
             f"{scene} {resolution}, {fewer} to {more} objects",
@@ -73,7 +73,7 @@ def more_objects_are_slower(e: Evidence) -> list[Check]:
     quantity="times as many",
 )
 def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
-    """Both numbers fall at each step; "far fewer" means at most a tenth with 40 objects."""
+    """Both numbers fall at each step; "far fewer": at 40 objects, at most a tenth of those at 0."""
     steps = [
         below(
             f"{scene} {what.replace('_', ' ')}, {fewer} to {more} objects",
@@ -101,7 +101,7 @@ def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
     Question.OCTREE,
 )
 def level_six_is_best(e: Evidence) -> list[Check]:
-    """Level 5 is quicker than 4, and 6 is quicker than 5 and than 7."""
+    """Level 5 is faster than level 4, and level 6 is faster than levels 5 and 7."""
     return [
         below(
             f"{scene} {resolution}, level {quicker} before {slower}",
@@ -185,7 +185,7 @@ def time_is_linear(e: Evidence) -> list[Check]:
     quantity="times the growth",
 )
 def crowded_scenes_grow_more(e: Evidence) -> list[Check]:
-    """Returns each of the two grows more than each of the others, at each resolution."""
+    """Each crowded scene grows more than each spacious scene, at each resolution."""
     return grows_more(e, _CROWDED, _SPACIOUS)
 
 
@@ -197,8 +197,9 @@ def crowded_scenes_grow_more(e: Evidence) -> list[Check]:
     quantity="times the gap",
 )
 def samples_widen_the_gap(e: Evidence) -> list[Check]:
-    """The difference of the two growths of C07 is larger with 5 samples (base: 320x200 with 5)
-    than with 1.
+    """The difference between the growths of C07 is larger with 5 samples than with 1.
+
+    With 5 samples, growth is relative to the time at 320x200 with 5 samples.
     """
     return [
         below(
@@ -229,7 +230,7 @@ def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
             for resolution in e.resolutions
         }
         known = [figure for figure in seconds.values() if figure is not None and figure.low > 0]
-        # An eye in an occupied leaf has no such beams, and they take no time.
+        # If the eye is in an occupied leaf, there are no such beams, and they take no time.
         if seconds[e.coarsest] not in known or seconds[e.finest] not in known:
             continue
         largest = max(known, key=lambda figure: figure.value)
@@ -248,11 +249,11 @@ def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
     is_figures=True,
 )
 def beams_of_maceta(e: Evidence) -> list[Check]:
-    """Counts beams made by cutting, and those of them that were cut: the thesis counts a beam when
-    one is created by cutting another (section 4.4.2; one wholly inside the next leaf is only placed
-    there).
+    """Counts the beams made by cutting, and how many of them were cut again.
 
-    A stand-in's counts are to be within a factor of 2, shares within 10 points.
+    The thesis counts a beam when it is created by cutting another (section 4.4.2). A beam that lies
+    wholly inside the next leaf is only placed there. A stand-in's counts should be within a factor
+    of 2, its shares within 10 percentage points.
     """
     every, inner = "beams_made", "beams_divided"
     counts = {(every, 6): 8701, (inner, 6): 4071, (every, 7): 37718, (inner, 7): 17751}
@@ -289,9 +290,10 @@ def beams_of_maceta(e: Evidence) -> list[Check]:
     quantity=None,
 )
 def occupied_leaves_take_the_time(e: Evidence) -> list[Check]:
-    """Most means more than half of the scenes; bola-espacial: 95% or more, and 63 +- 10%.
+    """Most means more than half of the scenes.
 
-    All beams are those that cutting made.
+    For bola-espacial, the share of the time is 95% or more, and the share of the beams 53% to 73%.
+    All beams are those made by cutting.
     """
     beams = e.worked("share_of_beams_occupied", "bola-espacial")
     if beams is None:
@@ -323,7 +325,7 @@ def occupied_leaves_take_the_time(e: Evidence) -> list[Check]:
     quantity=None,
 )
 def formulas_explain_the_time(e: Evidence) -> list[Check]:
-    """Fits to ten cells or more have R2 of 0.9 or more and a median error below a quarter."""
+    """Fits to ten cells or more have an R2 of 0.9 or more and a median error below 25%."""
     return [
         *formula(e, "nonterminal", ("beams_nonterminal", "beam_clips", "neighbor_searches")),
         *formula(
@@ -357,9 +359,9 @@ def beams_win_at_high_resolution(e: Evidence) -> list[Check]:
 
 
 def _rays_before_beams(e: Evidence, scene: str, resolution: str = "") -> Check:
-    """Is the better of Samet and Samet-Net faster than the beams?
+    """Checks whether the better of Samet and Samet-Net is faster than the beams.
 
-    By default at the coarsest resolution.
+    The default is the coarsest resolution.
     """
     resolution = resolution or e.coarsest
     return below(
@@ -375,11 +377,11 @@ def _rays_before_beams(e: Evidence, scene: str, resolution: str = "") -> Check:
     quantity=None,
 )
 def rays_can_win_at_low_resolution(e: Evidence) -> list[Check]:
-    """Rays win in at least one scene of table 5.4 and in at least one of table 5.5."""
+    """Rays win in at least one scene of table 5.4 and in at least one scene of table 5.5."""
     synthetic, real = ON_OCTREES[:2], ON_OCTREES[2:]
     said = replace(
         _rays_before_beams(e, "gato-bill", "640x480"),
-        cell="gato-bill 640x480 (the text says so of it, too)",
+        cell="gato-bill 640x480 (also named in the text)",
     )
     return [
         any_of("rays win in a synthetic scene", [_rays_before_beams(e, s) for s in synthetic]),
@@ -406,7 +408,7 @@ def links_pay(e: Evidence) -> list[Check]:
     Question.BEAMS_OR_RAYS,
 )
 def beams_win_at_best_levels(e: Evidence) -> list[Check]:
-    """Compares the best levels at 1280x1024; opponents need three levels or more."""
+    """Compares the best levels at 1280x1024; opponents need three measured levels or more."""
     checks = []
     for scene, other in product(("casa-de-campo", "gato-bill"), SAMETS):
         beams = list(e.times_by("level", scene, "beam").values())
@@ -459,7 +461,7 @@ def beams_win_against_other_structures(e: Evidence) -> list[Check]:
     Question.OTHER_STRUCTURES,
 )
 def hierarchy_falls_behind(e: Evidence) -> list[Check]:
-    """Time and ratio grow from each scene to the next larger one (1,004 to 34,110 objects)."""
+    """Time and ratio grow from each scene to the next larger scene (1,004 to 34,110 objects)."""
     seconds = {scene: e.time(scene, HIERARCHY) for scene in _BY_COUNT}
     ratios = {scene: ratio_of(seconds[scene], e.time(scene, "beam")) for scene in _BY_COUNT}
     return [
@@ -478,7 +480,10 @@ def hierarchy_falls_behind(e: Evidence) -> list[Check]:
     quantity=None,
 )
 def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
-    """The best of five or more grids lies between both ends, within half of 13 or 15; 1280x1024."""
+    """At 1280x1024, the best of five or more grids is neither the coarsest nor the finest.
+
+    It is within a factor of 1.5 of 13 or 15 cells.
+    """
     checks = []
     for scene, best in (("flamenco", 13), ("ajedrez", 15)):
         sweep = e.times_by("cells", scene, "voxel-grid")
@@ -503,7 +508,10 @@ def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
     is_figures=True,
 )
 def sizes_of_hierarchies(e: Evidence) -> list[Check]:
-    """A stand-in's boxes are within a factor of 1.5, its cost within 2; costs are in order."""
+    """A stand-in's number of boxes is within a factor of 1.5, its cost within a factor of 2.
+
+    The costs are in the thesis's order.
+    """
     printed = (
         ("bola-espacial", "boxes", 1154, 1.5),
         ("tetera", "boxes", 731, 1.5),

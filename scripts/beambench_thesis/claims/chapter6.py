@@ -1,9 +1,9 @@
-"""The rules of chapter 6: the measurements on the simulated cluster by which its claims hold.
+"""The rules that decide by the simulated cluster whether the claims of chapter 6 hold.
 
 They were committed before the first simulation of the cluster. The thesis says that its network is
-an Ethernet and that there were 15 processors, but not whether its `p` counts the producer. Its
-efficiency first rises with p, which is only possible if the producer, which does not trace beams,
-is counted: therefore p counts it here. The rules are applied to each simulated network.
+an Ethernet and that there were 15 processors, but not whether its `p` includes the producer. Its
+efficiency first rises with p. This is only possible if p includes the producer, which does not
+trace beams, so p includes it here. The rules are applied to each simulated network.
 """
 
 from collections.abc import Callable
@@ -60,7 +60,10 @@ def _on_each_network(rule: Callable[[Evidence, str], list[Check]]) -> Rule:
 )
 @_on_each_network
 def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
-    """Best at 9 to 13 and at 5 to 9 processors, 0.65 to 0.85 and above 0.6; lower with all 15."""
+    """gato-bill is best at 9 to 13 processors, with an efficiency of 0.65 to 0.85.
+
+    torre-eiffel is best at 5 to 9, with more than 0.6. Both are less efficient with all 15.
+    """
     best = {scene: e.cluster.figure("best_efficiency", scene, network) for scene in _BOTH}
     processors = {scene: e.cluster.figure("best_processors", scene, network) for scene in _BOTH}
     means = {scene: e.cluster.figure("mean_efficiency", scene, network) for scene in _BOTH}
@@ -95,7 +98,10 @@ def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
 )
 @_on_each_network
 def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
-    """The most beams of 14 consumers are 1.1 times the fewest; the first ends after 0.95."""
+    """Of 14 consumers, one has at least 1.1 times as many beams as another.
+
+    The first to end takes at least 95% of the time of the last.
+    """
     checks = []
     for scene in _BOTH:
         fewest, most, first, last = (
@@ -118,7 +124,10 @@ def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
 )
 @_on_each_network
 def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
-    """torre-eiffel has more beams, a busier producer with 14 consumers, and needs fewer for 90%."""
+    """torre-eiffel has more beams, and a busier producer with 14 consumers.
+
+    It needs fewer consumers to keep the producer busy for 90% of the time.
+    """
 
     def compared(cell: str, quantity: str, less: str, more: str) -> Check:
         return below(
@@ -142,7 +151,10 @@ def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
     quantity="of their speed",
 )
 def serves_unequal_machines(e: Evidence) -> list[Check]:
-    """On each simulated network they use at least 0.9 of their speed, compared with equal ones."""
+    """On each simulated network, unequal machines use at least 90% of their speed.
+
+    The reference is the time with equal machines.
+    """
 
     def used(scene: str, kind: str, network: str) -> Measured | None:
         return ratio_of(
@@ -168,12 +180,12 @@ UNEQUAL_MACHINES = {
     "slow": ("every other one half as fast", 0.75),
     "used": ("five used by others half of the time", 11.5 / 14),
 }
-"""Kinds of 14 consumers: their name in simulations.csv, and their speed over that of equal ones."""
+"""Kinds of 14 consumers: their name in simulations.csv, and their speed relative to equal ones."""
 
 STATIONS = 15
-_ALIKE = 0.01  # so flat a maximum has no definite position
+_ALIKE = 0.01  # efficiencies this close to the maximum count as equal to it
 _SATURATED = 0.9
-_MANY = 4 * STATIONS  # not saturated by then: later than the other
+_MANY = 4 * STATIONS  # consumers; a producer that they do not saturate is later than the other
 
 
 def cluster_evidence(folder: Path) -> ClusterEvidence:

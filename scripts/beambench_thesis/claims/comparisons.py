@@ -1,4 +1,4 @@
-"""Comparisons from which rules are built; straight lines and cost formulas by least squares."""
+"""Comparisons for rules, and least-squares fits of straight lines and cost formulas."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,11 +18,11 @@ class Line:
     """A least-squares line through points whose heights have intervals."""
 
     slope: Measured
-    """Errors of the heights, combined as independent ones."""
+    """The slope, with the errors of the heights combined as independent errors."""
     intercept: float
     r_squared: float
     within_intervals: bool
-    """Does the line pass through every interval, so that the data are consistent with it?"""
+    """Whether the line passes through every interval, so that the data are consistent with it."""
 
 
 def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
@@ -55,9 +55,9 @@ SAMETS = ("samet", "samet-net")
 def beats(
     e: Evidence, scene: str, winner: str, other: str, resolution: str = "", factor: float = 1
 ) -> Check:
-    """Is one structure faster than another, by `factor` or more?
+    """Checks whether one structure is faster than another, by `factor` or more.
 
-    By default at the finest resolution.
+    The default is the finest resolution.
     """
     resolution = resolution or e.finest
     twice = f", by {factor:g}" if factor > 1 else ""
@@ -70,7 +70,7 @@ def beats(
 
 
 def best_ray(e: Evidence, scene: str, resolution: str) -> Measured | None:
-    """Returns the better of Samet and Samet-Net, if both were timed."""
+    """Returns the better time of Samet and Samet-Net, if both were timed."""
     known = [e.time(scene, contender, resolution) for contender in SAMETS]
     times = [time for time in known if time is not None]
     return smallest(times) if len(times) == len(SAMETS) else None
@@ -89,7 +89,10 @@ def slope(line: Line | None) -> Measured | None:
 
 
 def is_linear(scene: str, line: Line | None) -> Check:
-    """Does the line explain 99% of the variance? Not decided if it passes all intervals."""
+    """Checks whether the line explains 99% of the variance.
+
+    If it does not, but passes through all intervals, this is undecided.
+    """
     if line is None:
         return Check(f"{scene}, linear", Outcome.MISSING)
     outcome = Outcome.UNDECIDED if line.within_intervals else Outcome.NO
@@ -113,7 +116,7 @@ def growth(e: Evidence, scene: str, resolution: str, samples: int = 1) -> Measur
 
 
 def grows_more(e: Evidence, more: tuple[str, ...], less: tuple[str, ...]) -> list[Check]:
-    """Does each scene of `more` grow more than each of `less`, at each resolution?"""
+    """Checks whether each scene of `more` grows more than each of `less`, at each resolution."""
     return [
         below(
             f"{slow} below {quick}, {resolution} over {e.coarsest}",
@@ -135,7 +138,7 @@ def difference(more: Measured | None, less: Measured | None) -> Measured | None:
 
 
 def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -> Check:
-    """Do more than half of them exceed the bound, whatever the undecided ones turn out to be?"""
+    """Checks whether more than half exceed the bound, whatever the undecided shares are."""
     known = {scene: share for scene, share in shares.items() if share is not None}
     figures = ", ".join(f"{scene} {share.value:.0%}" for scene, share in known.items())
     if len(known) < of or not known:
@@ -147,7 +150,7 @@ def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -
 
 
 def any_of(cell: str, checks: Sequence[Check]) -> Check:
-    """Does at least one of several cells agree?"""
+    """Checks whether at least one of several cells agrees."""
     outcomes = {check.outcome for check in checks}
     figures = ", ".join(f"{check.cell}: {check.figures}" for check in checks if check.figures)
     for outcome in (Outcome.MISSING, Outcome.YES, Outcome.UNDECIDED):
@@ -163,7 +166,10 @@ def seconds_per_beam(e: Evidence, level: int) -> Measured | None:
 
 
 def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
-    """Is the time of a task a sum of counts, each multiplied by a cost? Needs ten cells or more."""
+    """Checks whether a sum of counts, each multiplied by a cost, explains the time of a task.
+
+    This takes ten cells or more.
+    """
     seconds, counts = [], []
     for scene, level, resolution in e.beam_cells:
         time = e.worked(f"seconds_{task}", scene, resolution, level=level)
@@ -207,11 +213,11 @@ def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Mea
 
 
 def best_grid(scene: str, sweep: dict[int, Measured], printed: int) -> list[Check]:
-    """Is the best grid of the sweep an inner one, near the printed number of cells?
+    """Checks whether the best grid of the sweep is inside it, near the printed number of cells.
 
-    It must be faster than the coarsest and the finest grid, and within a factor of 1.5 of the
-    printed number of cells. Needs five grids or more. The interval of the best grid contains all
-    grids that may be as fast.
+    The grid must be faster than the coarsest and the finest grid, and within a factor of 1.5 of the
+    printed number of cells. This needs five grids or more. The interval of the best grid contains
+    all grids that may be as fast.
     """
     inside, place = f"{scene}, a best grid inside the sweep", f"{scene}, best cells per axis"
     if len(sweep) < 5:

@@ -1,7 +1,7 @@
 """Rules for claims that the thesis makes in prose only, without a table or a figure.
 
-Such sentences have few figures or none: what "few" or "nearly all" is taken to mean stands beside
-each rule. Octrees have level 6, as wherever the thesis does not vary it.
+Such sentences have few figures, if any. Each rule states what it takes words such as "few" or
+"nearly all" to mean. Octrees have level 6, as everywhere that the thesis does not vary it.
 """
 
 from collections.abc import Iterable
@@ -32,8 +32,9 @@ _BESIDE_HIERARCHIES = ("escena1", "escena2", "tetera", "bola-espacial")
 
 
 def _left_over(e: Evidence, cells: Iterable[tuple[str, str]], bound: float) -> list[Check]:
-    """Checks each scene and resolution: of the samples of beams that end at an occupied leaf, at
-    most the share `bound` hits nothing there and continues as rays.
+    """Checks the samples of beams that end at an occupied leaf, in each scene and resolution.
+
+    At most the share `bound` of these samples may hit nothing there and continue as rays.
     """
     return [
         between(
@@ -127,8 +128,8 @@ def leaving_is_never_critical(e: Evidence) -> list[Check]:
 )
 def gains_grow_with_the_resolution(e: Evidence) -> list[Check]:
     """Compares 320x200 with 1280x1024. The gain of Samet-Net is the seconds saved, since the reason
-    given is that more rays use the links; it fails where it is not faster at 1280x1024. The gain of
-    the beams is a ratio of times.
+    given is that more rays use the links; scenes in which it is not faster at 1280x1024 disagree.
+    The gain of the beams is a ratio of times.
     """
 
     def saves_more(scene: str) -> Check:
@@ -136,7 +137,7 @@ def gains_grow_with_the_resolution(e: Evidence) -> list[Check]:
         check = below(cell, saved(scene, e.coarsest), saved(scene, e.finest))
         gain = beats(e, scene, "samet-net", "samet")
         no_gain = gain.outcome is Outcome.NO
-        return replace(gain, cell=f"{cell}, by any at {e.finest}") if no_gain else check
+        return replace(gain, cell=f"{cell}, if any at {e.finest}") if no_gain else check
 
     def saved(scene: str, resolution: str) -> Measured | None:
         return difference(
@@ -165,8 +166,8 @@ def gains_grow_with_the_resolution(e: Evidence) -> list[Check]:
     "Primary rays are generally more than secondary (reflected, refracted) ones.",
     Question.WORK,
     quantity="times as many",
-    untestable="The thesis's materials are lost; those of the stand-ins are beambench's own, and "
-    "secondary rays follow from them.",
+    untestable="The thesis's materials are lost; the stand-ins have materials of beambench's own, "
+    "which determine the secondary rays.",
 )
 def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
     """Generally means in more than half of the fifteen scenes, and in all of them together."""
@@ -183,7 +184,7 @@ def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
     primary, secondary = everything if complete else (None, None)
     return [
         most("scenes whose primary rays are more than half", shares, 0.5, len(ALL_SCENES)),
-        below("secondary rays below primary ones, all scenes together", secondary, primary),
+        below("secondary rays below primary rays, all scenes together", secondary, primary),
     ]
 
 
@@ -195,8 +196,8 @@ def secondary_rays_are_fewer(e: Evidence) -> list[Check]:
     quantity="times as often",
 )
 def shadow_cache_gains_from_beams(e: Evidence) -> list[Check]:
-    """The cache finds more hidden shadow rays, in each scene, if pixels are shaded beam by beam
-    than along the rows.
+    """In each scene, the cache finds more hidden shadow rays if pixels are shaded beam by beam
+    than if they are shaded along the rows.
     """
     checks = []
     for scene in ALL_SCENES:
@@ -263,7 +264,7 @@ def gains_come_from_exit_beams(e: Evidence) -> list[Check]:
     quantity="times the gain",
 )
 def gains_grow_with_free_space(e: Evidence) -> list[Check]:
-    """In each pair of the six scenes, the one with more pixels in exit beams gains more."""
+    """In each pair of the six scenes, the scene with more pixels in exit beams gains more."""
     shares = {scene: _leaving(e, scene) for scene in ON_OCTREES}
     known = {scene: share.value for scene, share in shares.items() if share is not None}
     if len(known) < len(shares):
@@ -271,7 +272,8 @@ def gains_grow_with_free_space(e: Evidence) -> list[Check]:
     ordered = sorted(known, key=lambda scene: known[scene])
     return [
         below(
-            f"{less} ({known[less]:.0%} in exit beams) below {more} ({known[more]:.0%})",
+            f"gain of {less} ({known[less]:.0%} of pixels in exit beams) below that of {more} "
+            f"({known[more]:.0%})",
             _gain(e, less),
             _gain(e, more),
         )
@@ -287,11 +289,11 @@ def gains_grow_with_free_space(e: Evidence) -> list[Check]:
     quantity="times the gain",
 )
 def gains_grow_with_the_samples(e: Evidence) -> list[Check]:
-    """Compares 5 samples with 1 at 640x480, over Samet's rays, in figure 5.11's four scenes."""
+    """Compares gains over Samet's rays at 640x480, 5 samples with 1, in figure 5.11's scenes."""
     at = "640x480"
     return [
         below(
-            f"{scene} {at}, samet over beam, 1 to 5 samples",
+            f"{scene} {at}, samet over beam, 1 sample per pixel below 5",
             _gain(e, scene, at, 1),
             _gain(e, scene, at, 5),
         )

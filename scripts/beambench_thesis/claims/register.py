@@ -1,4 +1,4 @@
-"""Judges every claim by the thesis's own figures and by those of runs, and tabulates them."""
+"""Judges every claim by the thesis's own figures and by runs, and tabulates the claims."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -50,7 +50,7 @@ class JudgedClaim:
     thesis: Finding
     ours: Finding
     variants: tuple[Finding, ...] = ()
-    """Our findings over perturbed scenes, one for each variant of all scenes."""
+    """Our findings on perturbed scenes, one for each variant of all scenes."""
     deeper: Finding | None = None
     """Our finding by the other reading of the thesis's levels."""
 
@@ -71,7 +71,7 @@ TESTED = (Verdict.SUPPORTED, Verdict.MIXED, Verdict.CONTRADICTED, Verdict.UNDECI
 """The verdicts on claims all of whose comparisons were measured."""
 
 SWEPT_CLAIMS = (*CLAIMS, *PROSE_CLAIMS)
-"""The claims that runs of sweeps and a census decide."""
+"""The claims that are decided by runs of sweeps and a census."""
 
 ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *PROSE_CLAIMS)
 
@@ -84,8 +84,10 @@ def judge_claims(
 ) -> list[JudgedClaim]:
     """Judges the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
-    Without runs, our side is not tested. `variants` are of perturbed scenes, `deeper` of octrees by
-    the other reading of the thesis's levels. Raises Problem if a folder cannot be read.
+    Without runs, our side is not tested. `variants` are measurements of perturbed scenes, `deeper`
+    of octrees by the other reading of the thesis's levels.
+
+    Raises Problem if a folder cannot be read.
     """
     clusters = [run for run in runs if is_cluster_folder(run)]
     censuses = [run for run in runs if is_census_folder(run)]
@@ -113,7 +115,7 @@ def judge_claims(
 
 
 def by_question(claims: Sequence[JudgedClaim]) -> list[tuple[str, list[JudgedClaim]]]:
-    """Returns the claims by the questions that they answer, without questions that have none."""
+    """Returns the claims by the question that they answer, without questions without claims."""
     asked = [
         (question.value, [one for one in claims if one.claim.question is question])
         for question in Question
@@ -184,7 +186,7 @@ def effects(one: JudgedClaim) -> tuple[str, str]:
 def effect(claim: Claim, finding: Finding) -> str:
     """Returns the geometric mean of a claim's ratios or the median of its figures, with the range.
 
-    It is empty if nothing was measured, or nothing of one kind.
+    It is empty if nothing was measured, or if the comparisons have no common unit.
     """
     known = [check for check in counted(finding.checks) if check.outcome is not Outcome.MISSING]
     ratios = [check.ratio for check in known if check.ratio is not None and check.ratio > 0]
@@ -202,7 +204,7 @@ def _range(figures: Sequence[float]) -> str:
 
 
 def agreeing(finding: Finding) -> str:
-    """Returns `5 of 6`, with the undecided ones; a dash if nothing was measured."""
+    """Returns `5 of 6`, with undecided and missing comparisons; a dash if none was measured."""
     number_of = Counter(check.outcome for check in counted(finding.checks))
     if number_of[Outcome.MISSING] == number_of.total():
         return DASH
@@ -210,7 +212,7 @@ def agreeing(finding: Finding) -> str:
 
 
 def variants_that_agree(one: JudgedClaim) -> str:
-    """Returns `7 of 8`: the number of variants that support a claim, of those that test it."""
+    """Returns `7 of 8`: how many variants support a claim, and how many test it."""
     number_of = Counter(found.verdict for found in one.variants if found.verdict in TESTED)
     if not number_of:
         return DASH
@@ -226,7 +228,7 @@ _MOST_NAMED = 2
 
 
 def named(finding: Finding, outcome: Outcome) -> str:
-    """Returns the first comparisons with that outcome, with their figures, and how many more."""
+    """Returns the first comparisons with that outcome, with figures, and the number of others."""
     found = [check for check in counted(finding.checks) if check.outcome is outcome]
     first = [f"{check.cell}: {check.figures}" for check in found[:_MOST_NAMED]]
     rest = len(found) - len(first)

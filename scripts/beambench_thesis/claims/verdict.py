@@ -15,11 +15,11 @@ class Question(Enum):
     """The questions of readers, by which the report groups the claims."""
 
     BEAMS_OR_RAYS = "Do beams beat single rays through the same octree?"
-    OTHER_STRUCTURES = "Do they beat other structures?"
+    OTHER_STRUCTURES = "Do beams beat other structures?"
     OCTREE = "How should the octree be divided?"
     GROWTH = "How does the time grow with the rays?"
     WORK = "Where does the time go?"
-    PARALLEL = "What of the parallel program?"
+    PARALLEL = "How well does the parallel program work?"
 
 
 class Outcome(Enum):
@@ -54,17 +54,17 @@ class Check:
     value: float | None = None
     """The figure that should lie between two bounds, if there is one."""
     aside: bool = False
-    """Additional information on the claim, which does not affect its verdict."""
+    """Whether the cell is additional information, which does not affect the verdict."""
     is_paired: bool | None = None
-    """Are both figures from the same blocks? None if they were not both measured."""
+    """Whether both figures are from the same blocks; None if they were not both measured."""
 
 
 def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: float = 1) -> Check:
-    """Is one figure below the other, by `factor` or more?
+    """Checks whether one figure is below the other, by `factor` or more.
 
     Times of the same blocks are ranked by their ratio, as contenders are; otherwise the interval of
-    the difference decides. Figures that are surely equal within MARGIN mean no. An exact figure
-    that exactly meets the factor means yes.
+    the difference decides. The outcome is no if the figures are surely equal within MARGIN, and yes
+    if an exact figure exactly meets the factor.
     """
     if smaller is None or larger is None:
         return Check(cell, Outcome.MISSING)
@@ -88,7 +88,7 @@ def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: 
 
 
 def _by_rank(up: Ratio, down: Ratio) -> Outcome | None:
-    """Is the contender with the ratio `up` behind the one with its inverse?
+    """Returns whether the contender with the ratio `up` is behind the contender with its inverse.
 
     None if they are tied.
     """
@@ -99,10 +99,11 @@ def _by_rank(up: Ratio, down: Ratio) -> Outcome | None:
 
 
 def _blocks_to_decide(paired: Ratio) -> str:
-    """Returns the factor by which more blocks would decide, if the spread stays the same.
+    """Returns a note: by what factor the blocks must increase to decide the check.
 
-    The interval shrinks with the square root of the number of blocks, until it either excludes 1 or
-    lies within MARGIN of it, whichever takes fewer.
+    This assumes that the spread stays the same. The interval shrinks with the square root of the
+    number of blocks, until it either excludes 1 or lies within MARGIN of it, whichever takes fewer
+    blocks.
     """
     half = (paired.high - paired.low) / 2
     away = abs(paired.value - 1)
@@ -111,7 +112,7 @@ def _blocks_to_decide(paired: Ratio) -> str:
 
 
 def _by_difference(bound: Measured, larger: Measured, may_meet: bool) -> Outcome | None:
-    """Is it above the bound or, if exact, equal to it?
+    """Returns whether `larger` is above the bound or, if both are exact and it may, equal to it.
 
     None if they are surely equal within MARGIN.
     """
@@ -124,7 +125,7 @@ def _by_difference(bound: Measured, larger: Measured, may_meet: bool) -> Outcome
 
 
 def _are_alike(one: Measured, other: Measured) -> bool:
-    """Are they tied by the ratio of independent figures? Exact bounds never are."""
+    """Returns whether independent figures are tied by their ratio; exact bounds never are."""
     is_bound = any(figure.low == figure.high for figure in (one, other))
     if is_bound or min(one.low, other.low) <= 0:
         return False
@@ -134,7 +135,7 @@ def _are_alike(one: Measured, other: Measured) -> bool:
 
 
 def between(cell: str, figure: Measured | None, low: float, high: float, unit: str = "") -> Check:
-    """Does a figure lie between two bounds? Undecided if its interval contains a bound."""
+    """Checks whether a figure is between two bounds; undecided if its interval contains one."""
     if figure is None:
         return Check(cell, Outcome.MISSING)
     if low <= figure.low and figure.high <= high:
@@ -148,7 +149,7 @@ def between(cell: str, figure: Measured | None, low: float, high: float, unit: s
 
 
 def aside(check: Check) -> Check:
-    """Returns the cell as one that does not count."""
+    """Marks a cell as one that does not count."""
     return replace(check, aside=True)
 
 
@@ -206,11 +207,11 @@ class Claim:
     question: Question
     rule: Rule
     is_figures: bool
-    """The claim is a list of figures, which agree with themselves by definition."""
+    """Whether the claim is a list of figures, which agree with themselves by definition."""
     quantity: str | None = "times"
-    """The unit of its effect; None if its comparisons have no common unit."""
+    """The unit of the effect; None if the comparisons have no common unit."""
     untestable: str = ""
-    """Why no stand-in can test it, in one sentence; its cells are shown nevertheless."""
+    """Why stand-ins cannot test the claim, in one sentence; its cells are shown nevertheless."""
 
 
 class Claims(list[Claim]):

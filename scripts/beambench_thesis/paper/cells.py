@@ -30,7 +30,7 @@ class Cell:
     """One row of one run."""
 
     number: int
-    """Its position in the report's list of rows."""
+    """The position of the row in the report's list of rows."""
     run: str
     line: int
     """The line in the run's results.csv; the header is line 1."""
@@ -44,7 +44,7 @@ class Cell:
     verdict: str
     repetitions: int
     setting: Setting | None
-    """Its setting in the thesis; None if the thesis has no such parameters."""
+    """The setting in the thesis; None if the thesis has no such parameters."""
     time: Measured | None
     """Seconds, building included; None if the hits are not correct."""
     build: float
@@ -92,7 +92,7 @@ class Cells:
 
     @cached_property
     def _by_setting(self) -> dict[Setting, Cell]:
-        """The first cell of each setting."""
+        """Returns the first cell of each setting."""
         return {cell.setting: cell for cell in reversed(self.cells) if cell.setting is not None}
 
     @cached_property
@@ -104,7 +104,7 @@ class Cells:
 
 
 def read_cells(directory: Path, names: Iterable[str]) -> Cells:
-    """Reads the runs DIRECTORY/NAME, without empty ones."""
+    """Reads the runs DIRECTORY/NAME; folders without results.csv are skipped."""
     runs, cells, unread = [], [], []
     for name in names:
         folder = directory / name

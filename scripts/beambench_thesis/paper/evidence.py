@@ -1,4 +1,4 @@
-"""Evidence for the rules, in one form for the thesis's figures and for those of runs."""
+"""Evidence for the rules, in one form for the thesis's figures and for figures of runs."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ NO_BLOCKS = Blocks({})
 class Measured:
     """A positive figure and its 95% prediction interval, which is the figure itself if it is exact.
 
-    Without an interval, both ends are NaN. Figures of the same `blocks` are paired. Others were
-    measured independently, so their errors are combined as independent ones: as the root of the sum
-    of their squares (propagation of uncertainty, JCGM 100:2008, section 5.1.2), separately for each
+    Without an interval, both ends are NaN. Figures of the same `blocks` are paired. Other figures
+    were measured independently, so their errors are combined as the root of the sum of their
+    squares (propagation of uncertainty, JCGM 100:2008, section 5.1.2), separately for each
     side of the interval.
     """
 
@@ -145,16 +145,17 @@ FIGURES = ("scene", "network", "quantity", "value", "low", "high")
 class ClusterEvidence:
     """One table: a row for each figure of a scene on a network.
 
-    best_processors, best_efficiency, mean_efficiency, last_efficiency: of 2 to 15 processors, the
-        producer's among them; the interval of the first holds all that are as good within 1%.
-    beams: those at occupied leaves, which are sent.
-    fewest_beams, most_beams: of 14 consumers.
-    first_end, last_end: when they finished their last beam, in seconds.
-    producer_busy: the part of the time during which the producer worked, with 14 consumers.
-    consumers_that_saturate: the fewest with which that is 90%.
-    slowdown, capacity: with 14 consumers of which every other one is half as fast, or five are used
-        by others half of the time (quantities end in `_slow` and `_used`): the time with equal ones
-        over that time, and the part of their speed that these have.
+    best_processors, best_efficiency, mean_efficiency, last_efficiency: of 2 to 15 processors,
+        including the producer's; the interval of best_processors contains all numbers of processors
+        that are as good within 1%.
+    beams: the number of beams at occupied leaves, which are sent.
+    fewest_beams, most_beams: the numbers of beams of two of 14 consumers.
+    first_end, last_end: when the first and the last of 14 consumers end, in seconds.
+    producer_busy: the share of the time during which the producer works, with 14 consumers.
+    consumers_that_saturate: the fewest consumers with which this share is 90%.
+    slowdown, capacity: of 14 unequal consumers, the time with equal consumers over their time, and
+        their speed over that of equal consumers. In quantities that end in `_slow`, every other
+        consumer is half as fast; in `_used`, five are used by others half of the time.
     """
 
     figures: pd.DataFrame
@@ -226,8 +227,8 @@ class Evidence:
     times: table, setting, seconds with the building of the structure, and their interval.
     work: setting, the name of a quantity, its value and interval; a row for each quantity.
     octrees: counts of occupied leaves and of pixels of exit beams at 1280x1024.
-    cluster: chapter 6.
-    blocks: of the times of runs in blocks.
+    cluster: the figures of chapter 6.
+    blocks: the times in each block, for runs in blocks.
     """
 
     times: pd.DataFrame
@@ -294,9 +295,7 @@ class Evidence:
         contender: str = "beam",
         level: int = LEVEL,
     ) -> Measured | None:
-        """Returns a quantity of work of another structure, or of beams with the thesis's
-        parameters.
-        """
+        """Returns a quantity of work: of beams with the thesis's parameters, or of `contender`."""
         level = level if contender == "beam" else 0
         return self._work.get((quantity, scene, contender, level, resolution))
 
@@ -323,7 +322,7 @@ class Evidence:
 
     @cached_property
     def _times(self) -> dict[Setting, Measured]:
-        """Returns the times by setting. Tables that print the same cell agree."""
+        """Returns the times by setting; tables that print the same cell agree."""
         times = _figures_by(self.times.drop_duplicates(list(SETTING)), SETTING, "seconds")
         return {
             at: replace(time, blocks=self.blocks.get(at, NO_BLOCKS)) for at, time in times.items()
@@ -345,7 +344,7 @@ class Evidence:
 
 
 def one_level_less(e: Evidence) -> Evidence:
-    """Returns the evidence with the levels of all octrees counted from one less."""
+    """Returns the evidence with the levels of all octrees reduced by one."""
 
     def shifted(rows: pd.DataFrame) -> pd.DataFrame:
         return rows.assign(level=rows["level"] - (rows["level"] > 0))
@@ -366,8 +365,8 @@ NOTHING = Evidence(
 )
 
 
-# The thesis's beams are those that its constructor made, and its non-terminal beams those of them
-# that were cut: a beam that lies wholly inside the next leaf is only placed there (section 4.4.2,
+# The thesis counts the beams that its constructor made, and as non-terminal those of them that were
+# cut: a beam that lies wholly inside the next leaf is only placed there (section 4.4.2,
 # `PasaPor`; graphic 3.4).
 _MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
 
@@ -414,7 +413,7 @@ def _work(rows: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
 
 
 def _seconds_of_shares(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
-    """Turns printed shares of a time into times, which C09 needs."""
+    """Converts the printed shares of the total time into seconds; C09 compares seconds."""
     setting = ["scene", "contender", "level", "objects", "resolution"]
     known = times.drop_duplicates(setting)[[*setting, "seconds"]]
     shares = work[work["quantity"].eq("share_nonterminal")].merge(known, on=setting)

@@ -1,4 +1,4 @@
-"""Rendering Markdown from templates."""
+"""Renders Markdown from templates."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Measurements of beambench in the shape of the thesis's tables: runs and censuses.
+"""Reads measurements of runs and censuses in the form of the thesis's tables.
 
 A folder of censuses holds two outputs of `beambench census --json` on the same scenes: `scan.json`,
 with pixels shaded one after the other along the rows, and `beams.json`, beam by beam. Each has one
@@ -66,8 +66,8 @@ _HIERARCHIES = {
 """Variants of the hierarchy, by insertion and by order of traversal."""
 
 # The variation of one task relative to the others between counting passes of two runs. Found by
-# repeating a sweep of 84 cells twice on a disturbed machine: 95% of these ratios were found again
-# within 16% to 20%, 95% of the seconds of the pass only within 37% to 50%.
+# repeating a sweep of 84 cells twice on a disturbed machine: 95% of these ratios were reproduced to
+# within 16% to 20%, but 95% of the seconds of the pass only to within 37% to 50%.
 SPREAD_OF_PARTS = 0.17
 
 # The variation between processes, whose memory layouts differ (kBetweenRuns of the harness).
@@ -102,8 +102,8 @@ def measured_evidence(
         pd.concat([getattr(part, name) for part in parts], ignore_index=True)
         for name in ("times", "work", "octrees")
     )
-    # The tasks' shares of the time differ between the counting passes of two runs: the first run's
-    # count.
+    # The tasks' shares of the time differ between the counting passes of two runs: those of the
+    # first run are used.
     is_time = work["quantity"].str.startswith("seconds_").astype(bool)
     once = ~work.duplicated([*SETTING, "quantity"])
     return Evidence(
@@ -205,7 +205,7 @@ def _cells_per_axis(resolution: str) -> str:
 def seconds_of(row: dict[str, object]) -> dict[str, float]:
     """Returns seconds, building included, with the interval for the figure of a repeated run.
 
-    They are those of the fastest repetitions (base/fastest.py), or the median of all if these are
+    They are the median of the fastest repetitions (base/fastest.py), or of all if the fastest are
     unknown.
     """
     fastest = _number(row, "fastest_ms")
@@ -226,7 +226,7 @@ def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
 
 
 def _fastest(row: dict[str, object], seconds: float) -> dict[str, float]:
-    """Returns seconds of the fastest repetitions, with the interval for those of a repeated run."""
+    """Returns seconds of the fastest repetitions, with the interval for a repeated run."""
     error = seconds * error_between_runs(_number(row, "fastest_error"))
     return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
 
@@ -234,7 +234,7 @@ def _fastest(row: dict[str, object], seconds: float) -> dict[str, float]:
 def error_between_runs(error: float) -> float:
     """Returns the relative difference to expect from the fastest repetitions of another process.
 
-    NaN if those of this process are not known.
+    NaN if the error of this process is not known.
     """
     return hypot(error, BETWEEN_RUNS)
 
@@ -278,7 +278,7 @@ def _work(row: dict[str, object], setting: dict[str, object]) -> list[dict[str, 
 
 
 def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> dict[str, Measured]:
-    """Returns each task's share of the least time of a trace, and the building.
+    """Returns the seconds of each task, from its share of the least trace time, and of building.
 
     The shares are those of the counting pass. Its seconds are not used: the pass is made once, and
     other work on the machine can slow one cell by half and spare another, but it slows most tasks
@@ -302,7 +302,7 @@ def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> dict
 
 
 def _exact(figures: dict[str, float]) -> dict[str, Measured]:
-    """Returns those of the counted figures that are known."""
+    """Returns the known counts as exact figures."""
     return {name: Measured.exact(value) for name, value in figures.items() if pd.notna(value)}
 
 
@@ -330,7 +330,7 @@ ORDERS = ("scan", "beams")
 
 
 def is_census_folder(folder: Path) -> bool:
-    """Does it hold both files?"""
+    """Returns whether the folder holds the files of both orders."""
     return all(census_file(folder, order).exists() for order in ORDERS)
 
 

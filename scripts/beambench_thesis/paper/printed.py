@@ -21,7 +21,7 @@ _NAMES = {
     "voxel-grid": "voxel grid (Matriz Voxel)",
     "goldsmith-salmon": "hierarchy (Bounding Box)",
 }
-# Other scenes have their names, capitalized.
+# All other scenes have their capitalized names.
 _SCENES = {
     "escena1": "Escena 1",
     "escena2": "Escena 2",
@@ -54,7 +54,7 @@ class PrintedRow:
 
 @dataclass(frozen=True)
 class PrintedPart:
-    """Part (a), (b), ... of a table, which is about one scene."""
+    """Part (a), (b), ... of a table, for one scene."""
 
     table: str
     letter: str

@@ -22,12 +22,12 @@ class Field:
 
 @dataclass(frozen=True)
 class SectionTable:
-    """A table of fields; a long one is folded, since it is for looking up."""
+    """A table of fields; a long table is folded, since it is for reference."""
 
     title: str
     heads: tuple[str, ...]
     words: int
-    """The number of columns that contain words; the ones after them contain figures."""
+    """The number of columns that contain words; the columns after them contain figures."""
     rows: tuple[tuple[Field, ...], ...]
     is_long: bool = False
 
@@ -62,7 +62,7 @@ def section_table(
     *,
     is_long: bool = False,
 ) -> SectionTable:
-    """Returns a table: columns headed by `words` contain words, those by `figures` figures."""
+    """Returns a table; columns headed by `words` come first, then columns of figures."""
     fields = (tuple(Field(x) if isinstance(x, str) else x for x in row) for row in rows)
     return SectionTable(title, (*words, *figures), len(words), tuple(fields), is_long)
 

@@ -1,1 +1,1 @@
-"""The report on chapter 5: its sweeps, how they are run, tables, figures, page."""
+"""The report on chapter 5: its sweeps and their runs, tables, figures and pages."""

@@ -1,4 +1,4 @@
-"""First sentences of the report: one with a figure for each main question."""
+"""Makes the first sentences of the report: one with a figure for each main question."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ def answers(claims: Sequence[JudgedClaim]) -> tuple[Answer, ...]:
         ),
         Answer(
             Question.OTHER_STRUCTURES.value,
-            _beams_against(by_name["C18"], "the voxel grid and the hierarchy"),
+            _beams_against(by_name["C18"], "the voxel grid and Goldsmith and Salmon's hierarchy"),
         ),
         Answer(Question.PARALLEL.value, _efficiency(by_name.get("C22"))),
     )
@@ -79,12 +79,12 @@ def _efficiency(one: JudgedClaim | None) -> str:
     if one is None or not known:
         return f"{_NOT_MEASURED} It is simulated by `python -m beambench_thesis cluster`."
     parts = [
-        f"{number(check.value or 0)} with {at.value:.0f} ({cell.split(', ')[1]})"
+        f"{number(check.value or 0)} on {at.value:.0f} processors ({cell.split(', ')[1]})"
         for cell, check, at in known
     ]
     return (
-        f"The best efficiency over gato-bill by the number of processors: {' or '.join(parts)}; in "
-        f"the thesis, 0.75 with 11. {agreeing(one.ours)} comparisons agree."
+        f"Best efficiency for gato-bill: {' or '.join(parts)}; in the thesis, 0.75 on 11. "
+        f"{agreeing(one.ours)} comparisons agree."
     )
 
 

@@ -18,8 +18,8 @@ from beambench_thesis.report.runner import describe, run_sweeps
 from beambench_thesis.report.write import write_report
 
 _QUICK = (
-    "320x200 and 640x480 only, few repetitions; enough for the claims C12, C14, C21, C30 and C31 "
-    "alone, the others need higher resolutions"
+    "only 320x200 and 640x480, with few repetitions; enough for the claims C12, C14, C21, C30 and "
+    "C31 alone: the other claims need higher resolutions"
 )
 _MOST_VARIANTS = 99
 _EXAMPLES = """examples:
@@ -27,9 +27,9 @@ _EXAMPLES = """examples:
   scripts/thesis --quick                    the two lowest resolutions, within five minutes
   scripts/thesis --table 5.4 --table 5.6    what two tables need
   scripts/thesis --figure 5.11 -o samples   what a figure needs, in a folder of your choice
-  scripts/thesis --levels                   and how well max_level=auto chooses the level
-  scripts/thesis --perturb                  and the claims over eight variants of every scene
-  scripts/thesis --dry-run                  what would be run, and how long
+  scripts/thesis --levels                   also how well max_level=auto chooses the level
+  scripts/thesis --perturb                  also the claims over eight variants of every scene
+  scripts/thesis --dry-run                  what would be run, and how long it would take
   scripts/thesis --resume samples           resume a run that was cut off
 """
 
@@ -44,10 +44,22 @@ def add_run_command(commands: argparse._SubParsersAction, built: Path) -> None:
     )
     parser.set_defaults(handler=thesis)
     add = parser.add_argument
-    add("--table", action="append", default=[], metavar="5.4", help="only what this table needs")
-    add("--figure", action="append", default=[], metavar="5.8", help="only what this figure needs")
+    add(
+        "--table",
+        action="append",
+        default=[],
+        metavar="5.4",
+        help="measure only what this table needs",
+    )
+    add(
+        "--figure",
+        action="append",
+        default=[],
+        metavar="5.8",
+        help="measure only what this figure needs",
+    )
     add("--quick", action="store_true", help=_QUICK)
-    add("--levels", action="store_true", help="also how well max_level=auto chooses: 8 min or more")
+    add("--levels", action="store_true", help="also test how max_level=auto chooses; 8 min or more")
     add(
         "--perturb",
         type=_variants,
@@ -58,12 +70,20 @@ def add_run_command(commands: argparse._SubParsersAction, built: Path) -> None:
         help="also N variants of every scene (8 by default; up to 7 minutes each) at 320x200 and "
         "640x480: other seeds, cameras and places of objects",
     )
-    add("--dry-run", action="store_true", help="list the sweeps, their cells and their time; stop")
+    add(
+        "--dry-run",
+        action="store_true",
+        help="list the sweeps, their cells and their time, and stop",
+    )
     add("--report-only", action="store_true", help="measure nothing; write the report anew")
     add(
-        "-o", "--output", type=Path, metavar="DIR", help="where to; else results/runs/<time>-thesis"
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="output folder; default results/runs/<time>-thesis",
     )
-    add("--resume", type=Path, metavar="DIR", help="resume there; nothing finished is repeated")
+    add("--resume", type=Path, metavar="DIR", help="resume the run in DIR; skips finished sweeps")
     add("--beambench", type=Path, default=built, metavar="PROGRAM", help="the built beambench")
 
 
@@ -121,12 +141,12 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
         directory = options.output or ROOT / "results/runs" / f"{time}-thesis"
         if (directory / "thesis.json").exists() and not options.dry_run:
             raise Problem(
-                f"{directory}: holds a run already; resume it by --resume, or choose another"
+                f"{directory}: holds a run already; resume it with --resume, or choose another"
             )
         return plan, directory
     if any((options.table, options.figure, options.quick, options.output)):
         raise Problem(
-            "--resume continues what was begun: give no other choice with it, but for --levels and "
+            "--resume continues a run: no other choice can be given with it, except --levels and "
             "--perturb"
         )
     plan = read_plan(options.resume)

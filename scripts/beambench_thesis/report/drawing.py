@@ -25,7 +25,7 @@ class Points:
     variant: int
     at: Sequence[tuple[float, Measured]]
     is_joined: bool = True
-    """Is a line drawn through the points?"""
+    """Whether a line is drawn through the points."""
     color: str = ""
     """The color; by default the structure's."""
 
@@ -37,7 +37,7 @@ class Side:
     lines: tuple[Points, ...]
     title: str
     nothing: str = ""
-    """The text where there are no lines."""
+    """The text that replaces the lines if there are none."""
 
 
 @dataclass(frozen=True)
@@ -64,11 +64,11 @@ class FigureData:
     is_log: bool = False
     is_log_across: bool = False
     is_all_ours: bool = False
-    """Are both sides of our data?"""
+    """Whether both sides show our data."""
 
     @property
     def is_empty(self) -> bool:
-        """Was nothing of ours measured?"""
+        """Whether we measured none of the figure's data."""
         ours = [panel.right for panel in self.panels]
         ours += [panel.left for panel in self.panels] if self.is_all_ours else []
         return not any(side.lines for side in ours)

@@ -1,4 +1,4 @@
-"""Lines of points for the figures: the thesis's seconds and ours, over the number of rays."""
+"""Makes the lines of the figures: the thesis's seconds and ours, over the number of rays."""
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
@@ -22,7 +22,7 @@ from beambench_thesis.report.drawing import FigureData, Panel, Points, Side
 ACROSS = "rays / 10,000"
 TICKS = tuple(round(rays(resolution) / 1e4, 2) for resolution in RESOLUTIONS)
 
-_BARS = "bars are 95% intervals; points without bars were repeated too seldom"
+_BARS = "bars are 95% intervals; points without bars have too few repetitions"
 
 _RESOLUTION = SETTING.index("resolution")
 
@@ -70,12 +70,12 @@ def figure_5_14(cells: Cells, figure: str) -> FigureData:
     )
     return FigureData(
         figure,
-        "Time by the level that each contender has",
+        "Time by the level of each contender's octree",
         panels,
         "greatest level of the octree, the root being level 1",
-        "All of it is ours, build included; the points of the thesis's figure are lost. It says "
-        "that each contender's lowest point counts, and that the beams' is the lowest at high "
-        "resolution. At level 6 and 1280x1024 the thesis has: "
+        "All points are ours, build included; the thesis's are lost. The thesis says that each "
+        "contender's lowest point counts, and that the beams have the lowest of all at high "
+        "resolution. At level 6 and 1280x1024, the thesis's times are: "
         f"{'; '.join(_printed_at_six(scene) for scene in ('casa-de-campo', 'gato-bill'))}. The "
         f"vertical axis is logarithmic; {_BARS}.",
         (4, 5, 6, 7, 8, 9),
@@ -102,11 +102,12 @@ def figure_5_17(cells: Cells, figure: str) -> FigureData:
         "Time of the grid by its cells per axis",
         (Panel("", "time (1: 32 cells per axis;\nlower is better)", *sides),),
         "voxels along each axis",
-        f"{at}, filled lazily, build included; each line over its own time with 32 cells, ours "
-        f"being {ours}. Of the thesis's figure only this is known: with 32 cells per axis "
-        f"{_printed_grid('ajedrez', at):g} s (Ajedrez) and {_printed_grid('flamenco', at):g} s "
-        "(Flamenco) by table 5.8, Flamenco's best with 13 cells, 93 s at a resolution that it does "
-        "not state, Ajedrez's best with 15 (its seconds are lost). Both axes are logarithmic; "
+        f"{at}, filled lazily, build included; each line is relative to its own time with 32 "
+        f"cells, for ours {ours}. Of the thesis's figure, only three points are known: 32 cells "
+        f"per axis take {_printed_grid('ajedrez', at):g} s (Ajedrez) and "
+        f"{_printed_grid('flamenco', at):g} s (Flamenco) in table 5.8, and Flamenco's best grid, "
+        "with 13 cells, takes 93 s at a resolution that is not stated. Ajedrez's best grid has 15 "
+        "cells, but its seconds are lost. Both axes are logarithmic; "
         f"{_BARS}.",
         (8, 13, 16, 20, 24, 32, 48),
         is_log=True,
@@ -116,7 +117,7 @@ def figure_5_17(cells: Cells, figure: str) -> FigureData:
 
 
 def _swept_at(cells: Cells) -> str:
-    """Returns 1280x1024, or the best resolution of a quick run."""
+    """Returns 1280x1024 or, for a quick run, 320x200."""
     swept = [
         at for at in (FINEST, COARSEST) if len(_timed(cells, "flamenco", "voxel-grid", at)) > 1
     ]
@@ -151,11 +152,11 @@ def figure_5_18(cells: Cells, figure: str) -> FigureData:
         )
     return FigureData(
         figure,
-        "Beams beside the grid at its best",
+        "Beams and the grid at its best",
         tuple(panels),
         ACROSS,
         "The thesis's best grids are 15 cells per axis for Ajedrez and 13 for Flamenco; its points "
-        "for them are lost but for Flamenco's 93 s, so its column shows the 32 cells of table "
+        "for these are lost, except Flamenco's 93 s, so its column shows the 32 cells of table "
         f"5.8. Build included; the vertical axis is logarithmic; {_BARS}.",
         TICKS,
         is_log=True,
@@ -172,7 +173,7 @@ def _grids_over_rays(cells: Cells, scene: str, base: float) -> list[Points]:
     lazy = (_timed(cells, scene, "voxel-grid", at) for at in RESOLUTIONS)
     best = (min(found, key=lambda cell: cell.time.value) for found in lazy if found)
     points = [(rays(cell.resolution) / 1e4, cell.time) for cell in best]
-    lines.append(Points("grid, our best lazy one", "voxel-grid", 2, over(points, base)))
+    lines.append(Points("grid, our best lazy grid", "voxel-grid", 2, over(points, base)))
     return [line for line in lines if line.at]
 
 
@@ -181,7 +182,7 @@ def _grid(scene: str, count: int) -> list[tuple]:
 
 
 def _timed(cells: Cells, scene: str, structure: str, resolution: str) -> list[Cell]:
-    """Returns the timed cells with the thesis's parameters; among grids, the lazy ones."""
+    """Returns the timed cells with the thesis's parameters, such as lazily filled grids."""
     found = cells.of(scene, structure, resolution)
     return [cell for cell in found if cell.setting is not None and cell.time is not None]
 
@@ -245,15 +246,15 @@ def make_figures(numbers: Iterable[str], cells: Cells) -> list[FigureData]:
 def _of_table(
     title: str, table: str, cells: Cells, figure: str, *, is_log: bool = False
 ) -> FigureData:
-    """Draws the rows of a table over the number of rays."""
+    """Returns the figure of a table's rows over the number of rays."""
     parts = parts_of(table)
     return FigureData(
         figure,
         title,
         tuple(_table_panel(part, cells) for part in parts),
         ACROSS,
-        f"{_caption_of(parts)} Times are divided by the first curve's at 320x200, the "
-        f"thesis's left and ours right; building included; {_BARS}"
+        f"{_caption_of(parts)} Times, building included, are divided by the first curve's time at "
+        f"320x200, the thesis's on the left and ours on the right; {_BARS}"
         f"{'; the vertical axis is logarithmic' if is_log else ''}.",
         TICKS,
         is_log,
@@ -293,7 +294,7 @@ def _caption_of(parts: Sequence[PrintedPart]) -> str:
 
 
 def _of_scenes(title: str, scenes: Sequence[str], cells: Cells, figure: str) -> FigureData:
-    """Draws the beams' time (a) and its increase over 320x200 (b), by scene."""
+    """Returns the figure of the beams' time (a) and its increase over 320x200 (b), by scene."""
     thesis = {scene: _printed_beams(scene) for scene in scenes}
     ours = {scene: _measured_beams(cells, scene, 1) for scene in scenes}
     first = next((scene for scene in scenes if thesis[scene] and ours[scene]), scenes[0])
@@ -310,7 +311,7 @@ def _of_scenes(title: str, scenes: Sequence[str], cells: Cells, figure: str) -> 
 
 
 def _absolute(thesis: dict, ours: dict, first: str) -> Panel:
-    """Returns seconds over those of one scene at 320x200, to compare 1999 with today."""
+    """Returns times relative to one scene at 320x200, to compare 1999 with today."""
     sides = []
     for whose, lines, unit, factor in (("thesis", thesis, "s", 1), ("ours", ours, "ms", 1e3)):
         base = lines[first][0][1].value if lines[first] else None
@@ -321,7 +322,7 @@ def _absolute(thesis: dict, ours: dict, first: str) -> Panel:
 
 
 def _samples(cells: Cells, figure: str) -> FigureData:
-    """Returns figure 5.11 with 5.10 b; the thesis's points that no table has are lost."""
+    """Returns figure 5.11 with 5.10 b; the thesis's points that are in no table are lost."""
     one, five = (
         {scene: _measured_beams(cells, scene, samples) for scene in _REAL} for samples in (1, 5)
     )
@@ -337,7 +338,7 @@ def _samples(cells: Cells, figure: str) -> FigureData:
         (panel,),
         ACROSS,
         "Four samples at a pixel's corners and one in its center; none where a beam leaves the "
-        "scene. The base of each line is its own time at 320x200 with as many samples. The "
+        "scene. Each line is relative to its own time at 320x200 with as many samples. The "
         "thesis's points are lost; it says that the lines lie farther apart with five samples "
         f"(right) than with one (left, figure 5.10 b). {_BARS[0].upper()}{_BARS[1:]}.",
         TICKS,
@@ -395,7 +396,7 @@ def _caption_of_scenes(thesis: dict) -> str:
     without = f" Its points for {' and '.join(lost)} are lost." if lost else ""
     return (
         f"The beams at level 6. Thesis, 320x200 to 1280x1024: {'; '.join(texts)}.{without} Both "
-        f"axes of (a) are multiples of one scene's time at 320x200; {_BARS}."
+        f"sides of (a) show multiples of one scene's time at 320x200; {_BARS}."
     )
 
 

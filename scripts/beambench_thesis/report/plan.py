@@ -146,7 +146,7 @@ class Sweep:
         ]
 
     def _is_excluded(self, scene: str, structure: str, resolution: str, samples: int) -> bool:
-        """Evaluates the conditions of the thesis's sweeps, without `primitives_above`."""
+        """Returns whether the sweep excludes a cell; `primitives_above` is not evaluated."""
         own = {"scene": scene, "structure": structure}
         return any(
             all(entry.get(name, value) == value for name, value in own.items())
@@ -178,7 +178,7 @@ def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
 
 
 def quick(sweep: Sweep) -> Sweep | None:
-    """Returns the sweep at its low resolutions, with a short budget; None if it has none."""
+    """Returns the sweep at its low resolutions, with a short budget; None without them."""
     resolutions = [size for size in sweep.source["resolutions"] if size in LOW_RESOLUTIONS]
     if not resolutions:
         return None
@@ -192,14 +192,14 @@ def quick(sweep: Sweep) -> Sweep | None:
 
 
 def _changed(sweep: Sweep, name: str, changes: dict[str, Any], seconds_per_cell: float) -> Sweep:
-    """Returns the sweep with changes, and with the budget that its cells then have."""
+    """Returns the sweep with changes, and with the budget for its changed cells."""
     made = Sweep(name, sweep.source | changes)
     budget = round(max(1.0, seconds_per_cell * len(made.cells())), 1)
     return replace(made, source=made.source | {"budget_seconds": budget})
 
 
 _VARIED = ("synthetic", "division", "octree", "others-small", "others-large", "quality", "samples")
-_UNCLAIMED = (  # no claim is about them
+_UNCLAIMED = (  # contenders that no claim concerns
     "sah-bvh",
     "embree",
     "goldsmith-salmon:order=given,queue=heap,insert=everywhere",
@@ -217,8 +217,8 @@ def variant_sweeps(number: int) -> tuple[Sweep, ...]:
 def deeper_sweeps() -> tuple[Sweep, ...]:
     """Returns the sweeps by the other reading of the thesis's levels, at low resolutions.
 
-    In section 5.4 a level-5 octree has 2^5 cells along an axis, but elsewhere 2^4 (claims.md): each
-    level is one deeper than `max_level` counts it.
+    In section 5.4 a level-5 octree has 2^5 cells along an axis, but elsewhere 2^4 (claims.md). In
+    these sweeps, each `max_level` is larger by one.
     """
     return tuple(_deeper(read_sweep(name)) for name in _VARIED)
 
@@ -236,7 +236,7 @@ def _varied(sweep: Sweep, number: int) -> Sweep:
 
 
 def _claimed(sweep: Sweep) -> list[str | dict[str, Any]]:
-    """Returns the contenders that the claims are about."""
+    """Returns the contenders that the claims concern."""
     return [_with_exact_leaves(one) for one in sweep.source["structures"] if one not in _UNCLAIMED]
 
 
@@ -292,7 +292,7 @@ class Plan:
 
     @property
     def is_everything(self) -> bool:
-        """Does the plan cover all of chapter 5?"""
+        """Whether the plan covers all of chapter 5."""
         return len(self.tables) == len(TABLES) and len(self.figures) == len(FIGURES)
 
 
@@ -394,5 +394,5 @@ def read_plan(directory: Path) -> Plan:
 
 
 def _figures_of(sweeps: Set[str]) -> list[str]:
-    """Returns the figures that need no further sweeps, so cost nothing more."""
+    """Returns the figures for which these sweeps suffice."""
     return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]

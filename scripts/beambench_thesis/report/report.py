@@ -1,4 +1,4 @@
-"""Gathers the report from the runs of a folder, with its sentences."""
+"""Gathers the contents of the report from the runs of a folder."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -58,7 +58,7 @@ class Part:
 
     @cached_property
     def work(self) -> WorkTable:
-        """Memory and work of every cell of the table."""
+        """Returns memory and work of every cell of the table."""
         return work_of_lines(self.table.lines)
 
 
@@ -75,7 +75,7 @@ class RunSummary:
 
     @property
     def wrong(self) -> int:
-        """Number of cells without times."""
+        """The number of cells without times."""
         return sum(cell.time is None for cell in self.cells)
 
 
@@ -216,13 +216,13 @@ def _summary(directory: Path, sweep: Sweep, cells: Cells) -> RunSummary:
 
 TABLE_WORDS = (
     "The tables have the thesis's seconds (a Pentium of 350 MHz, 1999) and our milliseconds, which "
-    "cannot be compared, because the machines differ too much. The shapes in brackets can: each "
-    "time relative to the first row of the same part at 320x200, the thesis's and ours. Times "
+    "cannot be compared, because the machines differ too much. The shapes in parentheses can be "
+    "compared: a shape is a time relative to the first row of the same part at 320x200. Times "
     "include building the structure, as in the thesis; our build time follows the total. "
     "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels "
     "per axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), "
     "Kay and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) "
-    "are not the thesis's."
+    "are not in the thesis."
 )
 
 
@@ -233,28 +233,28 @@ def claim_words(claims: Sequence[JudgedClaim]) -> str:
 
 
 _CLAIM_WORDS = (
-    "Each claim is a rule that makes comparisons for each scene and resolution that the claim is "
-    "about. Supported: every comparison agrees; contradicted: most say the opposite; mixed: in "
-    "between; undecided: it depends on differences that chance may explain, or that were measured "
-    "too seldom; not testable: it depends on something that the thesis does not state. The effect "
-    "is the geometric mean, over the comparisons, of the quantity that should be larger divided by "
-    "the one that should be smaller, or the median of a figure; the minimum and maximum in "
-    "brackets are not an interval. "
+    "Each claim is tested by a rule that makes comparisons for each scene and resolution that the "
+    "claim concerns. Supported: every comparison agrees; contradicted: most comparisons show the "
+    "opposite; mixed: in between; undecided: the verdict depends on differences that chance may "
+    "explain, or that were measured too seldom; not testable: the claim depends on something that "
+    "the thesis does not state. The effect is the geometric mean, over the comparisons, of the "
+    "quantity that should be larger divided by the quantity that should be smaller, or the median "
+    "of a figure; the minimum and maximum in parentheses are not an interval. "
 )
 _VARIED_WORDS = (
     "Variants are perturbed scenes with other seeds, cameras and places of objects. They are "
-    "judged only at 320x200 and 640x480, so statements on 1280x1024 are judged at 640x480. Levels "
+    "judged only at 320x200 and 640x480; statements about 1280x1024 are judged at 640x480. Levels "
     "read otherwise: one line of section 5.4 seems to count levels from one less, so each octree "
     "is one level deeper, at the same resolutions. "
 )
 _RANKING_WORDS = (
     "Beams test the samples of a leaf one by one, as single rays are tested, without SIMD. Times "
-    "of the same blocks are ranked by their paired ratio: equal where its 95% confidence interval "
-    f"ends within {MARGIN:.0%} of 1, else one is below the other where the interval does not "
-    "contain 1. Others are compared by their 95% prediction intervals. Those of single tasks' "
-    f"times are assumed, from two repeated runs: {SPREAD_OF_PARTS:.0%} either way. Formerly: the "
-    "verdict in the words of version 0.2, which called every mixture of comparisons 'holds in "
-    "part'."
+    "of the same blocks are ranked by their paired ratio: they are equal if its 95% confidence "
+    f"interval ends within {MARGIN:.0%} of 1; otherwise, one is below the other if the interval "
+    "does not contain 1. Times of different blocks are compared by their 95% prediction intervals. "
+    f"For the times of single tasks, intervals of {SPREAD_OF_PARTS:.0%} to either side are "
+    "assumed, from two repeated runs. Formerly: the verdict in the words of version 0.2, which "
+    "called every mixture of comparisons 'holds in part'."
 )
 STAND_IN_WORDS = (
     "The files of the thesis's scenes are lost. Ours have the same names and numbers of primitives "
@@ -304,8 +304,8 @@ OTHER_SYSTEMS = (
 FIRST_FIGURES = ("5.7", "5.8", "5.12", "5.16")
 """The figures that show the thesis and ours side by side; the others are among the details."""
 BEST_WORDS = (
-    "Each contender with its fastest parameters, building included. In brackets: its time relative "
-    "to the first row, and the interval of that ratio."
+    "Each contender with its fastest parameters, building included. In parentheses: its time "
+    "relative to the first row, and the interval of this ratio."
 )
 
 
@@ -313,7 +313,7 @@ def headline(report: Report) -> str:
     """Returns the number of measured cells, and whether the hits were correct."""
     cells, wrong = len(report.cells.cells), len(report.cells.wrong)
     if not cells:
-        return "Nothing was measured yet."
+        return "Nothing has been measured yet."
     right = f"{wrong} of them wrong, and without times" if wrong else "all with correct hits"
     return f"{cells:,} measurements in {len(report.cells.runs)} runs, {right}."
 
@@ -322,15 +322,15 @@ def notice(report: Report) -> str:
     """Returns warnings for the reader; empty if everything was measured completely."""
     sentences = []
     if any(run.state != "finished" for run in report.runs):
-        sentences.append("Not everything that was planned is there (see Runs).")
+        sentences.append("Some planned runs are missing or incomplete (see Runs).")
     if report.plan.is_quick:
         decided = [
             one.claim.name for one in report.claims if one.ours.verdict is not Verdict.NOT_TESTED
         ]
         which = f": {', '.join(decided)}" if decided else ""
         sentences.append(
-            "This was a quick run: low resolutions and few repetitions, for a look, not for "
-            f"verdicts. Its cells are enough for {len(decided)} of {len(report.claims)} claims"
+            "This was a quick run: low resolutions and few repetitions, for a first look, not "
+            f"for verdicts. Its cells are enough for {len(decided)} of {len(report.claims)} claims"
             f"{which}; the others need cells that were not measured."
         )
     elif not report.plan.is_everything:

@@ -38,7 +38,7 @@ def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
         where = f"run {number} of {len(plan.every_sweep)}: {sweep.name}"
         state = state_of(directory / sweep.name)
         if state == "finished":
-            say(f"== {where}: finished before")
+            say(f"== {where}: already finished")
             code = _NOT_RIGHT if _has_wrong_cells(directory / sweep.name) else 0
         else:
             time = duration_in_words(sweep.budget_seconds)

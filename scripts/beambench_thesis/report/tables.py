@@ -19,7 +19,7 @@ from beambench_thesis.paper.printed import (
 from beambench_thesis.paper.section import Field
 
 Reasons = Callable[[str], str]
-"""Why there is nothing at a resolution, if so."""
+"""A function that returns why nothing was measured at a resolution."""
 
 _WITHOUT_TERMINAL = {"order": "given", "queue": "heap", "insert": "everywhere"}
 """The thesis's hierarchy with Goldsmith and Salmon's own insertion.
@@ -37,7 +37,7 @@ class Entry:
     ours: Cell | None
     shape: Measured | None
     missing: str
-    """Why there is no time of ours."""
+    """Why we have no time; empty if we have one."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class PartTable:
 
     @property
     def has_counts(self) -> bool:
-        """Does the thesis print leaves and pixels with this part?"""
+        """Whether the thesis prints leaves and pixels with this part."""
         return any(line.counts for line in self.lines)
 
 
@@ -161,7 +161,7 @@ _PER_IMAGE = {
     "beams_nonterminal": "non-terminal beams",
     "beams_occupied": "beams at occupied leaves",
     "beams_made": "beams made by cutting",
-    "beams_divided": "of these cut again",
+    "beams_divided": "beams made and cut again",
 }
 
 

@@ -104,7 +104,7 @@ def as_markdown(report: Report) -> dict[str, str]:
     """Returns the texts by the names of MARKDOWN."""
     made = markdown_environment(_TEMPLATES)
     claims = claims_as_markdown(report.claims)
-    cells = "# Every comparison of the claims\n\nBelongs to the [report](report.md).\n\n"
+    cells = "# Every comparison of the claims\n\nPart of the [report](report.md).\n\n"
     return {
         name: _rendered(made, f"{name}.j2", report, claims=claims) for name in MARKDOWN[:-1]
     } | {MARKDOWN[-1]: cells + cells_as_markdown(report.claims)}
@@ -154,7 +154,7 @@ def _rendered(made: Environment, template: str, report: Report, **values: object
 
 
 def _origin(report: Report) -> dict[str, object]:
-    """Returns the machine and the commits of the runs, for their names in the templates."""
+    """Returns the machine and the commits of the runs, by their names in the templates."""
     manifests = [run.manifest for run in report.runs]
     facts = (pair for manifest in manifests for group in manifest.facts for pair in group.pairs)
     return {

@@ -1,1 +1,1 @@
-"""Figures of the texts of results/published: a module for each folder computes them from rows."""
+"""Figures in the texts of results/published: a module for each folder computes them from rows."""

@@ -1,4 +1,4 @@
-"""results/published/area-lights: soft shadows and ambient occlusion, and Embree."""
+"""results/published/area-lights: soft shadows and ambient occlusion, compared with Embree."""
 
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ _LEAST = {"AVX2": 1.1, "AVX-512": 1.5}
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns the ratios to Embree by contender and kind of rays, and the number of rays."""
+    """Returns the ratios to Embree by contender and ray kind, and the number of rays."""
     cells = Cells(folder / "lists")
     isa = instruction_set(cells)
     of_area, of_occlusion = _TARGETS[isa]

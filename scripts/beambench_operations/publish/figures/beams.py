@@ -1,4 +1,4 @@
-"""results/published/beams: the thesis's beams beside single rays."""
+"""results/published/beams: the thesis's beams compared with single rays."""
 
 from pathlib import Path
 from typing import Any
@@ -59,7 +59,7 @@ def _by_level(cells: Cells, levels: tuple[str, ...]) -> dict[tuple[str, str], di
 
 
 def _own_best(cells: Cells, rays: str, handover: str, **view: str) -> float:
-    """Returns the ratio of build and trace together, each contender at its best level."""
+    """Returns the ratio of total times (build and trace), each contender at its best level."""
 
     def least(contender: str) -> float:
         rows = cells.having(contender, **view)
@@ -69,7 +69,7 @@ def _own_best(cells: Cells, rays: str, handover: str, **view: str) -> float:
 
 
 def _finest(file: Path) -> dict[str, Any]:
-    """Returns the rows of an earlier run at the highest resolution."""
+    """Returns the beams' speedups in an earlier run at the highest resolution."""
     rows = _with_parameters(file)
     scenes = list(dict.fromkeys(rows["scene"]))
     settings = ["structure", "scene", "max_level", "handover"]
@@ -97,7 +97,7 @@ def _finest(file: Path) -> dict[str, Any]:
 
 
 def _options(file: Path) -> dict[str, Any]:
-    """Returns the rows of an earlier run with the beams' options."""
+    """Returns the speedups of the beams' options in an earlier run."""
     rows = _with_parameters(file)
 
     def ratio(scene: str, samples: int, wanted: dict[str, str]) -> float | None:

@@ -14,13 +14,13 @@ from beambench_report.embree_comparison.pairings import in_one_way
 _MILLION = "bumpy:triangles=1000000"
 _FEWER = "bumpy:triangles=200000"
 _EQUALLY_DENSE = {"320x200": "143x89", "1280x1024": "572x458"}
-"""For each resolution over the million triangles, the one with as many pixels per triangle over a
-fifth of them.
+"""For each resolution over a million triangles, the resolution that has as many pixels per triangle
+over 200,000 triangles.
 """
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """The groups with their ratios, the growth with triangles, and builds."""
+    """Returns the groups with their ratios, the growth with triangles, and builds."""
     found = read_pairings(folder, BEAT_EMBREE)
     best = [one for one in found if one.isa == "best"]
     bumpy = [one for one in best if one.scene.startswith("bumpy:")]
@@ -41,7 +41,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _xeon(file: Path) -> dict[str, Ratio]:
-    """Returns the geometric means over the scenes of triangles by resolution in an earlier run."""
+    """Returns an earlier run's geometric means over the scenes of triangles, by resolution."""
     return {
         row.resolution: Ratio(row.ratio, row.low, row.high)
         for row in pd.read_csv(file).itertuples()
@@ -49,8 +49,8 @@ def _xeon(file: Path) -> dict[str, Ratio]:
 
 
 def _memory(run: Path) -> dict[str, float]:
-    """Returns the second trace's time per ray over a million triangles, divided by that over a
-    fifth.
+    """Returns the second trace's time per ray over a million triangles, divided by that over
+    200,000.
 
     Both images have as many pixels per triangle, so the work is alike while the memory differs.
     Empty if it was not measured.

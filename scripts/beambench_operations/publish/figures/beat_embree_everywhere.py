@@ -1,4 +1,4 @@
-"""results/published/beat-embree-everywhere: streams of rays that share no point, and Embree."""
+"""results/published/beat-embree-everywhere: streams of incoherent rays, compared with Embree."""
 
 from pathlib import Path
 from typing import Any
@@ -26,12 +26,12 @@ _TARGETS = {
     "AVX2": {"diffuse": 1.9, "path:bounces=3": 1.9, "ao:samples=4": 1.4, "reflection": 1.4},
     "AVX-512": {"diffuse": 2.6, "path:bounces=3": 2.6, "ao:samples=4": 1.9, "reflection": 1.8},
 }
-_DEFAULT_BATCH = 32768  # of pictures (harness/rays/ray_kind.hpp)
+_DEFAULT_BATCH = 32768  # the batch size of pictures (harness/rays/ray_kind.hpp)
 _PICTURES = {"AVX2": 1.5, "AVX-512": 2.0}
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns the ratios to Embree by kind of rays, and the effects of lengths, batches and
+    """Returns the ratios to Embree by ray kind, and the effects of list lengths, batches and
     threads.
     """
     lists, pictures = Cells(folder / "lists"), Cells(folder / "pictures")
@@ -75,7 +75,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _embree_4(folder: Path) -> dict[str, Any]:
-    """Returns the ratios to Embree 4 by kind of rays; empty if it was not measured."""
+    """Returns the ratios to Embree 4 by ray kind; empty if it was not measured."""
     if not (folder / "results.csv").is_file():
         return {}
     cells = Cells(folder)
@@ -91,7 +91,7 @@ def _embree_4(folder: Path) -> dict[str, Any]:
 
 
 def _large(cells: Cells) -> dict[str, dict[str, Ratio]]:
-    """Returns the ratios over one large mesh, by contender and kind of rays."""
+    """Returns the ratios over one large mesh, by contender and ray kind."""
     kinds = dict.fromkeys(cells.rows["kind"])
     return {
         name: {kind: to_embree(cells, name, scene=cells.scenes[0], kind=kind) for kind in kinds}
@@ -113,8 +113,8 @@ def _lengths(cells: Cells) -> dict[str, dict[int, Ratio]]:
 
 
 def _batches(cells: Cells) -> dict[str, dict[str, dict[int, Ratio]]]:
-    """Returns the time of pictures in batches of 4,096 over that in other sizes, by scene and
-    contender.
+    """Returns the time of pictures in batches of 4,096 over that in batches of other sizes, by
+    scene and contender.
     """
     kinds = list(dict.fromkeys(cells.rows["kind"]))
     least = next(kind for kind in kinds if kind.endswith("batch=4096"))
@@ -134,7 +134,7 @@ def _batches(cells: Cells) -> dict[str, dict[str, dict[int, Ratio]]]:
 
 
 def _threads(one: Cells, two: Cells) -> dict[str, dict[str, Ratio]]:
-    """Returns how many times as fast two threads are, by scene and kind of rays."""
+    """Returns the speedup of two threads over one, by scene and ray kind."""
     require_one_origin(one.folder, two.folder)
     return {
         scene: {

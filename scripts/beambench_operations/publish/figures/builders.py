@@ -1,4 +1,4 @@
-"""results/published/builders: build or trace? The builders of sah-bvh beside other structures."""
+"""results/published/builders: build time against trace time, for sah-bvh's builders and others."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

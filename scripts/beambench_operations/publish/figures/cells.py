@@ -23,7 +23,7 @@ class Cells:
     """
 
     def __init__(self, folder: Path) -> None:
-        """Raises Problem if FOLDER/results.csv cannot be read."""
+        """Reads the rows. Raises Problem if FOLDER/results.csv cannot be read."""
         self.folder = folder
         rows = read_run(folder).rows
         sizes = rows["width"].map("{:.0f}".format) + "x" + rows["height"].map("{:.0f}".format)
@@ -36,20 +36,20 @@ class Cells:
 
     def having(self, contender: str = "", **columns: str) -> pd.DataFrame:
         """Returns the rows of a contender, or of all, with these values; may be empty."""
-        # One selection, since each copies all columns.
+        # A single selection, because each one copies all columns.
         wanted = [self.rows[name] == value for name, value in columns.items()]
         if contender:
             wanted.append(self._is(contender))
         return self.rows[np.logical_and.reduce(wanted)] if wanted else self.rows
 
     def row(self, contender: str, **columns: str) -> pd.Series:
-        """Returns the only such row that has times. Raises Problem if there is none, or several."""
+        """Returns the matching row with times. Raises Problem unless there is exactly one."""
         found = self.having(contender, **columns)
         found = found[found["timed"]]
         if len(found) != 1:
             raise Problem(
-                f"{self.folder}/results.csv: {len(found)} rows with times are {contender} at "
-                f"{columns}, and one was expected; name what tells it apart"
+                f"{self.folder}/results.csv: {len(found)} rows of {contender} have times at "
+                f"{columns}, but one was expected; name what distinguishes it"
             )
         return found.iloc[0]
 
@@ -66,7 +66,7 @@ class Cells:
 
     @property
     def about_backs(self) -> str:
-        """A sentence, if `tile-beam` skips the backs of solids; else empty."""
+        """A sentence that says so if `tile-beam` skips the backs of solids; otherwise empty."""
         if self.having("tile-beam:backface_culling=true").empty:
             return ""
         return (

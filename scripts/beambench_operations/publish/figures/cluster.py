@@ -57,7 +57,7 @@ def _one(table: pd.DataFrame, values: dict[str, object], file: Path) -> pd.Serie
     for name, value in values.items():
         table = table[table[name] == value]
     if len(table) != 1:
-        raise Problem(f"{file}: {len(table)} rows are of {values}, and one was expected")
+        raise Problem(f"{file}: {len(table)} rows have {values}, but one was expected")
     return table.iloc[0]
 
 

@@ -12,7 +12,7 @@ from beambench_report.embree_comparison.results import Result, outcomes_in_words
 
 
 def read_pairings(folder: Path, names: Sequence[str]) -> list[Pairing]:
-    """Returns the comparisons of those runs of a folder that exist."""
+    """Returns the comparisons in a folder's runs of these names, if they exist."""
     runs = [run for name in names if (run := folder / name / "results.csv").is_file()]
     require_one_origin(*(run.parent for run in runs))
     return pairings(read_run(run.parent) for run in runs)

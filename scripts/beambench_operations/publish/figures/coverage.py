@@ -1,4 +1,4 @@
-"""results/published/coverage: two sweeps, each measured twice: how well a second run agrees."""
+"""results/published/coverage: how well the second runs of two sweeps agree with the first."""
 
 from pathlib import Path
 from typing import Any

@@ -9,7 +9,7 @@ from beambench_operations.publish.figures.formats import is_ahead, is_behind
 from beambench_report.base.analysis import read_analysis
 
 _BEAMS = "beam:max_level=6,leaf=exact"
-"""Tests samples one by one, as single rays are tested."""
+"""These beams test samples one by one, as single rays are tested."""
 _BEAMS_SIMD = "beam:max_level=6,leaf=simd"
 _RAYS = "samet:max_level=6"
 

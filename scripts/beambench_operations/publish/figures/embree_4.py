@@ -1,4 +1,4 @@
-"""results/published/embree-4: tile beams and sah-bvh beside every mode of Embree 4."""
+"""results/published/embree-4: tile beams and sah-bvh compared with every mode of Embree 4."""
 
 from pathlib import Path
 from typing import Any

@@ -26,7 +26,7 @@ def count(value: float) -> str:
     """Formats a whole number with thousands separators."""
     whole = round(_value(value))
     if value != whole:
-        raise ValueError(f"{value} is no count")
+        raise ValueError(f"{value} is not a count")
     return f"{whole:,}"
 
 
@@ -49,17 +49,17 @@ def interval(ratio: Ratio) -> str:
 
 
 def is_ahead(speedup: Ratio) -> bool:
-    """Is the interval above 1?"""
+    """Returns whether the interval is above 1."""
     return speedup.low is not None and speedup.low > 1
 
 
 def is_behind(speedup: Ratio) -> bool:
-    """Is the interval below 1?"""
+    """Returns whether the interval is below 1."""
     return speedup.high is not None and speedup.high < 1
 
 
 def speedup(ratio: Ratio, otherwise: str) -> str:
-    """Formats a speedup with its interval; if that is below 1, with `otherwise`, who is faster."""
+    """Formats a speedup with its interval; if that is below 1, adds `otherwise`: who is faster."""
     if is_behind(ratio):
         return f"{interval(ratio)}: {otherwise}"
     is_open = ratio.interval is not None and not is_ahead(ratio)
@@ -73,14 +73,14 @@ def inverse(ratio: Ratio) -> Ratio:
 
 
 def cited(figure: str) -> str:
-    """Marks a figure that another work states, or that a target sets: it was not measured here."""
+    """Marks a figure of another work or of a target, which was not measured here."""
     return figure
 
 
 def holds(condition: object) -> str:
-    """Returns nothing if a statement without a figure is true. Raises ValueError otherwise."""
+    """Returns an empty string if a statement without a figure is true, or raises ValueError."""
     if not condition:
-        raise ValueError("what this sentence says does not follow from the rows any more")
+        raise ValueError("this sentence no longer follows from the rows")
     return ""
 
 

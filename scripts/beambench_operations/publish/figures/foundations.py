@@ -59,13 +59,13 @@ def _table(cells: Cells, contenders: dict[str, str], kind: str) -> dict[str, Any
 
 
 def _are_timed(cells: Cells, contenders: tuple[str, ...], **columns: str) -> bool:
-    """Returns whether all have times there; they do not if the scene has no rays of the kind."""
+    """Returns whether all contenders have times; they do not if a scene has no rays of a kind."""
     return all(cells.having(one, **columns)["timed"].any() for one in contenders)
 
 
 def _glass(file: Path) -> dict[str, Any]:
-    """Returns the refracted rays of one picture: times, and the share outside beams at small
-    angles.
+    """Returns facts on the refracted rays of one picture: times, and the share of single rays at
+    small angles.
     """
     source = load_json(file)
     seen = source["seen_through"]

@@ -12,7 +12,7 @@ _SCENE = "tetra"
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns box and polygon tests over TETRA: Haines's, ours, those pinned by the C++ test."""
+    """Returns box and polygon tests over TETRA: Haines's, ours, and the C++ test's."""
     ours = read_tests(folder / "tests.csv")
     given, shuffled = (ours[contender][_SCENE] for contender in CONTENDERS)
     return {
@@ -25,7 +25,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _pinned(name: str) -> int:
-    """Returns the count that the test expects. Raises Problem if it expects none of that name."""
+    """Returns the count that the test expects. Raises Problem if there is none."""
     found = re.search(rf"EXPECT_EQ\({re.escape(name)}, ([\d']+)U\)", _PINS.read_text("utf-8"))
     if found is None:
         raise Problem(f"{_PINS}: does not expect a value of {name}; name what the text states")

@@ -1,4 +1,4 @@
-"""results/published/libraries: tinybvh and madmann91/bvh beside sah-bvh and Embree."""
+"""results/published/libraries: tinybvh and madmann91/bvh compared with sah-bvh and Embree."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -62,7 +62,7 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _means(cells: Cells, contender: str) -> dict[str, Ratio]:
-    """Returns a contender's time over watertight Embree's by kind, where all scenes are correct."""
+    """Returns a contender's time over watertight Embree's, by ray kind with only correct scenes."""
     found = {}
     for kind in _KINDS:
         views = [{"scene": scene, "ray_kind": kind} for scene in cells.scenes]
@@ -79,7 +79,7 @@ def _means(cells: Cells, contender: str) -> dict[str, Ratio]:
 def _gain(cells: Cells, *others: str) -> dict[str, dict[str, Ratio]]:
     """Returns the time of the fastest of the others, chosen in each view, over that of streams.
 
-    The result is by kind of rays and scene, with the mean as `mean`. Only Embree has lists in two
+    The result is by ray kind and scene, with the mean as `mean`. Only Embree has lists in two
     orders.
     """
     found: dict[str, dict[str, Ratio]] = {}

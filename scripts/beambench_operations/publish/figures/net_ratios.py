@@ -13,7 +13,7 @@ NET = "trace_net_ms_median"
 
 
 def net_ratios(cells: Cells, base: str, contenders: Mapping[str, str]) -> pd.Series:
-    """Returns the ratios of timed cells by name in `contenders`, scene and kind of rays."""
+    """Returns the ratios of timed cells by name in `contenders`, scene and ray kind."""
     found = {}
     for kind in dict.fromkeys(cells.rows["ray_kind"]):
         for scene in cells.scenes:
@@ -26,7 +26,7 @@ def net_ratios(cells: Cells, base: str, contenders: Mapping[str, str]) -> pd.Ser
 
 
 def paired_net_ratio(cells: Cells, over: pd.Series, under: pd.Series) -> Ratio:
-    """Returns a row's trace time over another one's, paired within blocks.
+    """Returns a row's trace time over that of another row, paired within blocks.
 
     Raises Problem if no block has both.
     """

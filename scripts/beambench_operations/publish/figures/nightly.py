@@ -13,7 +13,7 @@ def figures(folder: Path) -> dict[str, Any]:
     cells = Cells(folder)
     manifest = read_manifest(folder)
     if manifest is None or manifest.seconds is None:
-        raise Problem(f"{folder}/manifest.json: does not say how long the night took")
+        raise Problem(f"{folder}/manifest.json: does not state how long the night took")
     return {
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),

@@ -34,14 +34,14 @@ class Origin:
 def origins(folder: Path) -> list[Origin]:
     """Returns the origin of every run in a folder, by path; without runs, that of its record.
 
-    Raises Problem for a manifest without them.
+    Raises Problem if a manifest does not state its origin.
     """
     found = [_origin(manifest, folder) for manifest in sorted(folder.rglob("manifest.json"))]
     return found or _of_record(folder / RECORD)
 
 
 def require_one_origin(*folders: Path) -> None:
-    """Raises Problem where runs that are compared with one another differ in what made them."""
+    """Raises Problem unless runs that are compared are of one commit on one machine."""
     found = {
         (one.commit, one.machine_id): str(folder) for folder in folders for one in origins(folder)
     }
@@ -72,7 +72,7 @@ def machine_in_words(processor: str) -> str:
 def made(folder: Path) -> str:
     """Returns the commits and machines of a folder's runs: `654e80c, EPYC`.
 
-    Says so if runs are from before blocks: their order is not a claim.
+    Adds a note if runs were not measured in blocks: their order is not a claim.
     """
     found = dict.fromkeys(
         (one.short_commit, machine_in_words(one.processor)) for one in origins(folder)
@@ -87,7 +87,7 @@ def made(folder: Path) -> str:
 
 
 def _is_in_blocks(table: Path) -> bool:
-    """Were the runs of a results.csv measured in blocks?"""
+    """Returns whether the runs of a results.csv were measured in blocks."""
     return in_blocks(pd.read_csv(table, usecols=lambda name: name == "blocks"))
 
 

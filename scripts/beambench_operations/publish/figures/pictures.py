@@ -9,11 +9,11 @@ from beambench_operations.publish.figures.cells import Cells
 from beambench_report.base.files import read_table
 
 _MODES = ("single", "packet4", "packet8", "packet16", "stream")
-_NS = 1e6  # in a millisecond
+_NS = 1e6  # nanoseconds in a millisecond
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns nanoseconds per ray by mode, the share of shading, both versions, and the profile."""
+    """Returns nanoseconds per ray by mode, the share of shading, a gain, and the profile."""
     cells = Cells(folder)
     per_ray = {
         scene: {mode: _ns(cells, scene, f"embree:mode={mode},robust=true") for mode in _MODES}
@@ -59,7 +59,7 @@ def _not_robust(cells: Cells, mode: str) -> float:
 
 
 def _gain(file: Path) -> dict[str, Any]:
-    """Returns nanoseconds per ray before over after, from the scenes' medians over rounds."""
+    """Returns times per ray before a change over those after, from the medians over rounds."""
     columns = [f"{when}_ns_per_ray" for when in ("before_single", "after_single", "after_best")]
     table = read_table(file, ("scene", *columns), "restore it with git")
     medians = table.groupby("scene", sort=False)[columns].median()

@@ -12,7 +12,7 @@ _AIMS = {
     "nights": {"kills": 300},
     "cluster": {"kills": 50},
 }
-"""The aims of part 20 of the plan; for kills, by subject."""
+"""The aims of the campaigns; for kills, by subject."""
 
 
 _COUNTS = ["executions", "scenes", "rays", "kills", "runs", "cpu_seconds", "findings"]

@@ -15,7 +15,7 @@ _NOT_OLDER = ("embree", "tile-beam", "sah-bvh", "kd-tree", "beam", "grid-beam")
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Returns the mean over the scenes and the wins of each structure, by kind of rays."""
+    """Returns the mean over the scenes and the wins of each structure, by ray kind."""
     cells = Cells(folder)
     found = races(cells.rows, cells.files)
     by_kind = {kind: [race for race in found if race.ray_kind == kind] for kind in _KINDS}

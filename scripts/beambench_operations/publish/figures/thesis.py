@@ -82,7 +82,7 @@ def _second(folder: Path) -> Report | None:
 
 
 def _is_of_one_kind(other: Path, folder: Path) -> bool:
-    """Were both made by the same commit on the same machine?"""
+    """Returns whether both were made by the same commit on the same machine."""
     made_by, known = (
         {(one.commit, one.machine_id) for one in origins(where)}
         for where in (other, folder / "synthetic")
@@ -112,8 +112,8 @@ def _again(first: Report, second: Report) -> dict[str, Any]:
 
 
 def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str, Any]:
-    """Compares the claims that both runs test: undecided in one or both, decided alike or
-    differently.
+    """Compares the claims that both runs test: those undecided in one or both, and those decided
+    alike or differently.
     """
     both = [name for name in first if second.get(name, Verdict.NOT_TESTED) in TESTED]
     decided = [n for n in both if Verdict.UNDECIDED not in (first[n], second[n])]
@@ -128,7 +128,7 @@ def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str,
 
 
 def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
-    """Counts the fastest repetitions of repeated sweeps that lie in the first runs' intervals.
+    """Counts the fastest repetitions of repeated sweeps that lie within the first runs' intervals.
 
     The claims are judged by these intervals (thesis/paper/measured.py). The result also has the
     median and the 90% quantile of the changes, for the fastest repetitions and for the medians.

@@ -14,7 +14,7 @@ _THREADS = 2
 
 
 def is_implausible(speedup: Ratio, threads: int) -> bool:
-    """Is it above the number of threads? Then the single-threaded run was probably disturbed."""
+    """Returns whether a speedup exceeds the number of threads: a run was probably disturbed."""
     return speedup.value > threads
 
 
@@ -53,12 +53,12 @@ def figures(folder: Path) -> dict[str, Any]:
 
 
 def _shown(speedup: Ratio) -> str:
-    """Formats a field of the table, marked if it is implausible."""
+    """Formats a cell of the table, with a note if the speedup is implausible."""
     text = interval(speedup) if speedup.interval else fixed(speedup)
     return f"{text}, implausible" if is_implausible(speedup, _THREADS) else text
 
 
 def _range(speedups: Iterable[Ratio]) -> tuple[float, float]:
-    """Returns the least and the largest plausible one."""
+    """Returns the least and the largest plausible speedup."""
     known = [one.value for one in speedups if not is_implausible(one, _THREADS)]
     return min(known), max(known)

@@ -43,7 +43,7 @@ def line(cells: Cells, contender: str, target: float | None, **columns: str) -> 
 
 
 def to_embree(cells: Cells, contender: str, **columns: str) -> Ratio:
-    """Returns the time of Embree's fastest correct mode, in either order, over a contender's.
+    """Returns the time of Embree's fastest correct mode and list order over a contender's.
 
     For whole pictures, both times exclude shading.
     """

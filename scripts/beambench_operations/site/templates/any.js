@@ -1,4 +1,4 @@
-// Any two runs of a sweep beside each other, by the rules of site/comparison.py.
+// Compares any two runs of a sweep, by the rules of site/comparison.py.
 (() => {
   const runs = JSON.parse(document.getElementById("runs-data").textContent);
   const form = document.getElementById("two");
@@ -92,7 +92,7 @@
     made = null;
     if (before.in_blocks !== after.in_blocks) {
       document.getElementById("warning").hidden = true;
-      status.textContent = "One of these runs is from before blocks: its times are medians, and they are not compared.";
+      status.textContent = "One of these runs was not measured in blocks: its times are medians, which are not compared.";
       table.tBodies[0].replaceChildren();
       return;
     }

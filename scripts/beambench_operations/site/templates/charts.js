@@ -1,5 +1,5 @@
 // The chart of one view at one resolution: ratios run by run, as SVG with links and hover titles.
-// Only what is looked at is unpacked and drawn.
+// Only the selected chart is unpacked and drawn.
 (() => {
   const data = JSON.parse(document.getElementById("chart-data").textContent);
   const form = document.getElementById("pick");
@@ -25,7 +25,7 @@
     });
   };
 
-  // Black and the other dark colors of the house are turned around on dark paper.
+  // Black and the other dark colors of the plots are lightened on a dark background.
   const shown = (color) => {
     if (!dark.matches) return color;
     const parts = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
@@ -34,7 +34,7 @@
     return `rgb(${parts.map((part) => Math.round(part + (255 - part) * lift)).join(",")})`;
   };
 
-  // Of a logarithmic axis: 1, 2 and 5 in each decade, or even steps where it is short.
+  // Ticks of a logarithmic axis: 1, 2 and 5 in each decade, or even steps if the range is small.
   const ticksOf = (low, high) => {
     const found = [];
     if (high / low > 4) {
@@ -60,7 +60,7 @@
     figure.setAttribute("aria-label", `Ratios to Embree, run by run, in ${view.value} at ${size.value}`);
     legend.replaceChildren(...lines.map(entry));
     if (lines.length === 0) {
-      figure.textContent = "No time here has a reference in the same run.";
+      figure.textContent = "No time in this view has a reference in the same run.";
       return;
     }
     const width = Math.max(280, Math.min(1040, figure.clientWidth));
@@ -126,7 +126,7 @@
     line.values.flatMap((value, place) => {
       if (value === null) return [];
       const night = data.nights[place];
-      const how = night.in_blocks ? "" : " (before blocks: not compared)";
+      const how = night.in_blocks ? "" : " (not measured in blocks: not compared)";
       const words = `${line.name}: ${inWords(value)} × Embree${how}\n${night.run}\ncommit ${night.commit} ${night.subject}`;
       const color = shown(line.color);
       const paint = night.in_blocks ? { fill: color } : { fill: "none", stroke: color };

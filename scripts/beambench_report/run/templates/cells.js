@@ -1,4 +1,4 @@
-// The table of all cells: every column of the packed rows, a page at a time, in place of the written one.
+// The table of all cells: every column of the packed rows, a page at a time; it replaces the written table.
 (() => {
   const { rows, columns } = JSON.parse(document.getElementById("cells-data").textContent);
   const section = document.getElementById("cells");
@@ -67,7 +67,7 @@
       const own = columns.flatMap((column, place) => (column.group === target.value && !column.first ? [place] : []));
       api.columns(own).visible(target.checked);
     });
-    // In the address, so that a link or a reload keeps it.
+    // The filter is kept in the address, for links and reloads.
     api.on("search", () => {
       const asked = api.search().trim();
       const place = asked ? `#filter=${encodeURIComponent(asked)}` : "";
@@ -79,7 +79,7 @@
   const cells = () => (made ??= makeCells());
   if (window.DataTable) whenSeen(document.getElementById("cells-table"), cells);
 
-  /** What the address asks for: a filter, or one cell. */
+  /** Opens what the address names: a filter, or one cell. */
   const open = () => {
     const wanted = decodeURIComponent(location.hash.slice(1));
     if (wanted.startsWith("filter=") && window.DataTable && cells().search() !== wanted.slice(7)) {
@@ -103,7 +103,7 @@
       const value = document.createElement("dd");
       name.title = column.meaning;
       name.textContent = column.name.replaceAll("_", " ");
-      // The unit of a text says how it is written, such as "16 hex digits".
+      // The unit of a string describes its format, such as "16 hex digits".
       const unit = column.figures ? column.unit.replace("10^6 ", "million ") : "";
       value.textContent = unit ? `${text} ${unit}` : text;
       pair.append(name, value);

@@ -1,12 +1,12 @@
 "use strict";
 
 // Tables are sorted and filtered by DataTables (https://datatables.net), which scripts/viewer fetches.
-// Without it, and without JavaScript, they are shown as they were written.
+// Without DataTables or JavaScript, tables are shown as they were written.
 
-/** For labels, and for what is searched: DataTables takes both for HTML. */
+/** Escapes labels and search data, both of which DataTables takes for HTML. */
 const escaped = (text) => DataTable.util.escapeHtml(text);
 
-/** The filter of one column: figures are compared, where a dash is none; of a few texts, some can be chosen. */
+/** The filter of one column: figures are compared; if there are only a few texts, the reader chooses among them. */
 const columnFilters = (isFigure, texts) => {
   const options = () => texts.map((text) => ({ label: escaped(text) || "(none)", value: text }));
   let own = "searchText";
@@ -26,13 +26,13 @@ const makeTable = (table, options = {}) =>
     ...options,
   });
 
-// What was not measured stays last, whatever the direction.
+// Fields that were not measured stay last in both directions.
 if (window.DataTable) {
   const nothingLast = (sign) => (a, b) => (a === "" || b === "" ? (a === "") - (b === "") : sign * (a - b));
   DataTable.type("num-last", { order: { asc: nothingLast(1), desc: nothingLast(-1) } });
 }
 
-/** A table of class `sortable`; with `data-filter`, an example of words, it has fields that filter, too. */
+/** Makes a table of class `sortable`; with `data-filter`, an example of words, the table also has filters. */
 const makeSortable = (table) => {
   const rows = [...table.tBodies[0].rows];
   const example = table.dataset.filter;
