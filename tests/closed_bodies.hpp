@@ -89,7 +89,7 @@ inline glm::dvec3 direction_from(Random& random) {
   return glm::normalize(verify::point_in_cube(random));
 }
 
-/// Turned, scaled and moved; sometimes only moved, so that faces are parallel to the world's axes.
+/// A random rotation, scale and shift; sometimes the identity, so that faces are axis-aligned.
 struct Placement {
   explicit Placement(Random& random) {
     if (random.below(4) == 0) return;

@@ -17,7 +17,7 @@ class FakeSystem {
     folder_.write(path, text);
   }
 
-  /// Puts the process into a group of version 2, with the whole hierarchy mounted.
+  /// Puts the process into a control group of version 2, with the whole hierarchy mounted.
   void join_group(const std::string& group) const {
     write("proc/self/cgroup", "0::" + group + "\n");
     write("proc/self/mountinfo",
@@ -25,7 +25,7 @@ class FakeSystem {
           "31 25 0:26 / /sys/fs/cgroup rw,nosuid shared:9 - cgroup2 cgroup2 rw,nsdelegate\n");
   }
 
-  /// Sets the counts in cpu.stat of a group of version 2.
+  /// Sets the counts in cpu.stat of a control group of version 2.
   void count_throttling(const std::string& group, int periods, int throttled) const {
     write("sys/fs/cgroup" + group + "/cpu.stat",
           "usage_usec 900000\nnr_periods " + std::to_string(periods) + "\nnr_throttled " +

@@ -12,7 +12,7 @@
 
 namespace beambench::tests {
 
-/// Expects the hits of exhaustive search for `rays` difficult rays, and the same for any-hit
+/// Expects the results of exhaustive search for `rays` difficult rays, for closest-hit and any-hit
 /// queries.
 inline void expect_hits_of_exhaustive(const scenes::Scene& scene,
                                       const accel::Accelerator& structure, std::uint64_t seed,

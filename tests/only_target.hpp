@@ -11,7 +11,7 @@
 
 namespace beambench::tests {
 
-/// Makes Highway believe that the machine has one instruction set, until destroyed.
+/// Restricts Highway to one instruction set until destroyed.
 class OnlyTarget {
  public:
   explicit OnlyTarget(std::int64_t target) { pretend(target); }

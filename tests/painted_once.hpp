@@ -41,9 +41,9 @@ class PaintWatch : public accel::beam::NoBeamWatch {
   std::array<std::uint64_t, 3> reasons_{};
 };
 
-/// Traces an image and checks that each sample whose ray `meets` the structure is painted once and
-/// all others never, that no sample became a ray because of crowding, and that the hits of all
-/// samples, or of every `stride`-th, equal those of `exhaustive`. Returns how samples ended.
+/// Traces an image. Each sample whose ray `meets` the structure must be painted once, and all other
+/// samples never. No sample may become a ray because of crowding. The hits of all samples, or of
+/// every `stride`-th sample, must equal those of `exhaustive`. Returns how samples ended.
 template <class Tracer, class Meets>
 PaintWatch expect_painted_once(const scenes::Scene& scene, const Tracer& tracer, const Meets& meets,
                                const accel::PrimaryRays& rays, std::size_t stride = 1) {

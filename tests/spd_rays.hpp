@@ -9,8 +9,8 @@
 
 namespace beambench::tests {
 
-/// Rays through the corners of 512 x 512 pixels, that is 513 x 513 rays, and for each of their hits
-/// a shadow ray to each light that the visible side of the polygon faces.
+/// Eye rays through the corners of 512 x 512 pixels, which are 513 x 513 rays, and from each hit a
+/// shadow ray to each light that the visible side of the polygon faces.
 struct SpdRays {
   std::vector<accel::Ray> eye;
   std::vector<accel::Ray> shadow;  ///< the light is at t_max = 1

@@ -1,4 +1,5 @@
-// How beams test samples in leaves: all modes find the same hits, and all that use SIMD report it.
+// Tests of samples in the leaves of beams: all modes find the same hits, and only the mode that
+// uses SIMD states an instruction set.
 
 #include <array>
 #include <cstdint>

@@ -31,7 +31,7 @@ std::size_t count(const std::vector<BeamPlace>& places, Way way) {
   return static_cast<std::size_t>(std::ranges::count(places, way, &BeamPlace::way));
 }
 
-/// Returns the rays of each block; they lie in one beam and cross one side.
+/// Returns the rays of each block, which must lie in the same beam and cross the same side.
 std::map<std::uint32_t, std::vector<std::size_t>> blocks_of(const std::vector<BeamPlace>& places) {
   std::map<std::uint32_t, std::vector<std::size_t>> blocks;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -196,7 +196,7 @@ TEST_P(PencilPlaces, ABlockInOrderIsASquareOfThePicture) {
       }
     }
   }
-  EXPECT_GT(scattered, 0U) << "no block was put together anew";
+  EXPECT_GT(scattered, 0U) << "no block was regrouped";
 }
 
 TEST_P(PencilPlaces, RaysAreHandedOverWhereTheyAreCounted) {

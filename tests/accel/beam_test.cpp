@@ -1,4 +1,4 @@
-// Properties of beams: every sample belongs to exactly one, however beams are divided.
+// Properties of beams: every sample belongs to exactly one beam, however beams are divided.
 
 #include <array>
 #include <cstdint>

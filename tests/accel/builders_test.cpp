@@ -81,12 +81,12 @@ std::vector<Boxes> difficult_boxes() {
     spaced.push_back({glm::vec3(at), glm::vec3(at)});
   }
   all.push_back(spaced);
-  Boxes nested;  // each in the next, with one center
+  Boxes nested;  // each inside the next, with a common center
   for (int i = 1; i <= 3000; ++i) {
     nested.push_back({glm::vec3(static_cast<float>(-i)), glm::vec3(static_cast<float>(i))});
   }
   all.push_back(nested);
-  Boxes corner;  // each in the next, with one corner: sizes double
+  Boxes corner;  // each inside the next, with a common corner; sizes double
   for (int i = 0; i < 200; ++i) {
     corner.push_back(
         {glm::vec3(0.0F), glm::vec3(static_cast<float>(std::pow(2.0, i % 200 - 120)))});
@@ -165,7 +165,7 @@ TEST(SweepBuilder, CostsNoMoreThanBins) {
   for (const char* scene : {"bumpy:triangles=20000", "balls:n=4", "rings:n=3", "escena1"}) {
     SCOPED_TRACE(scene);
     const Boxes boxes = boxes_of(scene);
-    // Splits are the best of each node, not of the whole tree.
+    // Each split is the best for its node, but not necessarily for the whole tree.
     EXPECT_LE(sah_cost(build_sweep_bvh(boxes, {}), {}), 1.02 * sah_cost(build_bvh(boxes, {}), {}));
   }
 }
@@ -228,7 +228,7 @@ TEST(Reinsertion, NeverCostsMore) {
 TEST(Reinsertion, RepairsABadTree) {
   const Boxes boxes = random_boxes(300, 3);
   const BinaryBvh good = build_sweep_bvh(boxes, {.max_leaf = 1});
-  // As many leaves, but in the order of the boxes, which is random.
+  // The bad tree has the same nodes, but its leaves hold the boxes in their order, which is random.
   BinaryBvh bad = good;
   for (std::size_t i = bad.nodes.size(), item = 0; i-- > 0;) {
     BvhNode& node = bad.nodes[i];

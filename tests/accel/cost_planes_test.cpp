@@ -43,7 +43,7 @@ OctreeOptions some_cost_options(std::uint64_t number) {
   return options;
 }
 
-/// Returns the planes of a cube of 16 cells along each axis, all primitives in it.
+/// Returns the planes of a cube of 16 cells along each axis that contains all primitives.
 glm::ivec3 planes_of(const std::vector<CellRange>& ranges) {
   CellGrid grid;
   grid.cells = glm::ivec3(16);
@@ -54,14 +54,15 @@ glm::ivec3 planes_of(const std::vector<CellRange>& ranges) {
 
 CellRange point(std::uint16_t x) { return {{x, 8, 8}, {x, 8, 8}}; }
 
-// By hand: with x at 1, 2, 3 and 14 the object median is plane 3, the spatial one 8, and the
-// positions between, rounded, are 8, 7, 7, 6, 6, 5, 5, 4, 4, 3. At plane p (4 to 8) three of four
-// lie below, and half the areas are 256 + 32 p and 256 + 32 (16 - p): 3 (256 + 32 p) + 768 - 32 p =
-// 1536 + 64 p, least at 4: 1792. At 3 it is 2 (256 + 96) + 2 (256 + 416) = 2048.
+// By hand: with x at 1, 2, 3 and 14 the object median is plane 3, the spatial median plane 8, and
+// the rounded positions from one to the other are 8, 7, 7, 6, 6, 5, 5, 4, 4, 3. At a plane p from 4
+// to 8, three of the four points lie below, and the half areas are 256 + 32 p and
+// 256 + 32 (16 - p). The cost is 3 (256 + 32 p) + 768 - 32 p = 1536 + 64 p, which is lowest at
+// p = 4: 1792. At p = 3 it is 2 (256 + 96) + 2 (256 + 416) = 2048.
 TEST(CostPlanes, MinimizeTheCost) {
   EXPECT_EQ(planes_of({point(1), point(2), point(3), point(14)}).x, 4);
-  EXPECT_EQ(planes_of({}), glm::ivec3(8)) << "nothing to choose by: the spatial median";
-  EXPECT_EQ(planes_of({point(5)}).y, 8) << "both medians";
+  EXPECT_EQ(planes_of({}), glm::ivec3(8)) << "without points, the spatial median";
+  EXPECT_EQ(planes_of({point(5)}).y, 8) << "the spatial and the object median coincide";
 }
 
 TEST(CostPlanes, LeavesTileTheRootAndReferToWhatOverlapsThem) {
@@ -99,7 +100,7 @@ TEST(CostPlanes, HitsMatchExhaustive) {
   }
 }
 
-// The purpose of the option.
+// Saving tests is the purpose of the option `planes=cost`.
 TEST(CostPlanes, SaveTests) {
   const scenes::Scene scene = scenes::load_scene("balls:n=3");
   const auto work = [&](const char* spec) {

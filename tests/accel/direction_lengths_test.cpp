@@ -74,7 +74,7 @@ TEST_P(DirectionLengths, ChangeNoHit) {
   }
 }
 
-/// A sphere a billion units away, and rays so short that t would be 1e39.
+/// A sphere is a billion units away, and directions are so short that t would be 1e39.
 TEST_P(DirectionLengths, NeverHitBeyondTheLargestFloat) {
   scenes::SceneBuilder builder("far");
   builder.add_sphere({9e8, 0.0, 0.0}, 1e6);

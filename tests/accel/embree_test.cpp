@@ -37,8 +37,8 @@ Ray ray_from(const glm::vec3& origin, const glm::vec3& direction) {
   return made;
 }
 
-/// Along the x axis: a sphere, one seen only from the inside, a cylinder across, one seen only from
-/// the inside, and two coincident square polygons at x = 12.
+/// Returns primitives along the x axis: a sphere, a sphere seen only from the inside, a cylinder
+/// parallel to z, one seen only from the inside, and two coincident square polygons at x = 12.
 scenes::Scene row_of_primitives() {
   scenes::SceneBuilder builder("row");
   builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
@@ -75,7 +75,7 @@ TEST(EmbreeOracle, HitsEachKindAccordingToItsDefinition) {
   expect_hit(oracle.closest_hit(along), 6.0, 2);
   along.t_min = 6.2F;  // entering the next cylinder, at 6.5, is not a hit
   expect_hit(oracle.closest_hit(along), 7.5, 3);
-  along.t_min = 7.6F;  // two polygons at one place
+  along.t_min = 7.6F;  // two coincident polygons
   expect_hit(oracle.closest_hit(along), 8.5, 4);
   along.t_min = 8.6F;
   EXPECT_FALSE(oracle.closest_hit(along).has_value());
@@ -113,8 +113,8 @@ TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
   }
 }
 
-// Five in a million of these rays were lost when doubles decided on which side of the ray an edge
-// passes: at a vertex, they may put all edges on one side.
+// Five in a million of these rays were lost when the side of the ray on which an edge passes was
+// computed in double: at a vertex, rounding may put all edges on the same side.
 TEST(EmbreeOracle, LosesNoRayFromAnywhereAtTheVerticesOfAClosedMesh) {
   for (const char* name : {"bumpy:triangles=1000", "bumpy:triangles=20000"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -275,8 +275,8 @@ TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
   }
 }
 
-/// Expects the exact hit up to the single precision of curves for cones: t within several roundings
-/// of the ray's length; a different primitive only if the two are that close.
+/// Counts a result in `unlike` if it is a hit where the exact result is a miss, or the reverse, or
+/// if its t differs by more than 1e-4: curves that represent cones have single precision.
 void expect_as_exact(const Accelerator& exact, const Ray& ray, const std::optional<Hit>& hit,
                      std::size_t& unlike) {
   const auto expected = exact.closest_hit(ray, nullptr);
@@ -302,7 +302,7 @@ TEST_P(EmbreeModes, ConesAsCurvesAreHitCorrectlyByDirectionsOfAnyLength) {
     }
   }
   Random random(3);
-  std::vector<Ray> rays;  // from where no end of a cylinder can be seen
+  std::vector<Ray> rays;  // from the camera, which sees no end of a cylinder
   for (int i = 0; i < 1000; ++i) {
     const auto x = static_cast<int>(random.below(61));
     const auto y = static_cast<int>(random.below(47));
@@ -410,7 +410,7 @@ TEST(Embree, IsRestrictedToAnInstructionSet) {
   EXPECT_EQ(embree("mode=single", scene)->statistics().instruction_set, embree::isa_in_use("best"));
 }
 
-// Streams are made in packets as wide as the instruction set's registers: 4, 8 or 16 rays.
+// Streams are traced in packets as wide as the instruction set's registers: 4, 8 or 16 rays.
 TEST(Embree, EveryModeMatchesSingleRaysOnEveryInstructionSet) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // with partial tiles and blocks
@@ -447,7 +447,7 @@ TEST(Embree, NamesTheTypesOfItsGeometry) {
   EXPECT_EQ(types(row_of_primitives()), "triangles+points+callbacks");
 }
 
-// The time of making the same rays, with a miss for each, is subtracted from Embree's times.
+// The time to generate the same rays and write a miss for each is subtracted from Embree's times.
 TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAnImage) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const auto null = registry().choose({"null", {{"rays", "simd"}}}).build(scene);
@@ -506,7 +506,7 @@ TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
   const scenes::Scene scene = row_of_primitives();
   const tests::OnlyTarget only(HWY_SSE4);
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { embree("isa=avx2", scene); }),
-                           {"avx2", "does not have", "isa=best"}));
+                           {"avx2", "does not support", "isa=best"}));
   EXPECT_NO_THROW(embree("isa=best", scene)) << "Embree runs on more than was requested";
 }
 #endif

@@ -101,7 +101,7 @@ TEST_P(EstimatedStructure, EstimatesWhatLinesThatMissVisit) {
   const double steps = static_cast<double>(work.get(Counter::kTraversalSteps)) / lines;
   EXPECT_NEAR(leaves, estimate.at("sah_leaves"), 0.05 * leaves);
   const std::string name = GetParam();
-  if (name == "sah-bvh" || name == "kd-tree") {  // whose other steps are interior nodes
+  if (name == "sah-bvh" || name == "kd-tree") {  // all other steps are interior nodes
     EXPECT_NEAR(steps - leaves, estimate.at("sah_nodes"), 0.05 * (steps - leaves));
   }
 }

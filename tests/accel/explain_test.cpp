@@ -54,8 +54,8 @@ TEST(Explain, SametTraversesASmallOctreeAsByHand) {
   ray.origin = {3.25F, 0.25F, 1.5F};
   ray.direction = {-1.0F, 0.0F, -0.5F};
 
-  // From the empty leaf at (2, 0, 0), which the ray leaves at x = 2, into the leaf at the origin,
-  // whose triangle is hit where the ray leaves that leaf.
+  // The ray leaves the empty leaf at (2, 0, 0) at x = 2 and enters the leaf at the origin. It hits
+  // the triangle of this leaf where it leaves the leaf.
   const std::vector<TraceStep> steps = samet.path(ray);
   ASSERT_EQ(steps.size(), 2U);
   expect_leaf(steps[0], 2, {2.0, 0.0, 0.0}, 0.0, 1.25);

@@ -32,8 +32,8 @@ bvh::GoldsmithSalmonOptions options_for(Order order,
 
 constexpr std::array kInsertions{bvh::Insertion::kEverywhere, bvh::Insertion::kTerminal};
 
-/// Expects every primitive once and within its box, every box to be the union of those below it,
-/// and volumes to have at least two children (the root may have one).
+/// Expects every primitive once and within its box, every box to be the union of its children's
+/// boxes, and volumes to have at least two children (the root may have one).
 void expect_valid(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene) {
   const auto& entries = hierarchy.entries;
   std::vector<int> seen(scene.primitives.size(), 0);
@@ -95,24 +95,24 @@ bvh::InsertionHierarchy insert_in_order(const std::vector<scenes::Bounds>& boxes
   return bvh::build_by_insertion(boxes, order, insertion);
 }
 
-// Half areas: a cube of side s has 3 s^2.
+// Costs are half areas; that of a cube of side s is 3 s^2.
 TEST(GoldsmithSalmon, ChoosesAsByHand) {
-  // Two cubes of side 1 at either end of a cube of side 10; the third lies beside the first. One
-  // more child of the root: 300. A pair with the first, two units long: 2 x 12 = 24.
+  // Two cubes of side 1 at either end of a cube of side 10; the third lies beside the first. Adding
+  // it to the root costs 300; pairing it with the first cube costs 2 x 12 = 24.
   const bvh::InsertionHierarchy paired = insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2)});
   EXPECT_EQ(paired.volumes, 2U);
   EXPECT_DOUBLE_EQ(paired.cost, 2.0 + 2.0 * 12.0 / 300.0);
 
-  // The fourth lies within the pair: one more child there costs 12; pairing it with one of the
-  // pair's cubes of side 1, overlapping by half, costs 13.5.
+  // The fourth cube lies within the pair. Adding it to the pair costs 12; pairing it with one of
+  // the pair's cubes of side 1, which it overlaps by half, costs 13.5.
   const bvh::InsertionHierarchy wider =
       insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F)});
   EXPECT_EQ(wider.volumes, 2U);
   EXPECT_EQ(wider.widest, 3U);
   EXPECT_DOUBLE_EQ(wider.cost, 2.0 + 3.0 * 12.0 / 300.0);
 
-  // Three cubes in one place share a volume; far away a fourth would make it grow by 3 x 297 more
-  // than a new root above both.
+  // Three coincident cubes share a volume. Enlarging it for a fourth cube, far away, would cost
+  // 3 x 297 for these three alone; a new root above both costs less.
   const bvh::InsertionHierarchy above =
       insert_in_order({cube(0, 1), cube(0, 1), cube(0, 1), cube(9, 10)});
   EXPECT_EQ(above.volumes, 2U);
@@ -121,28 +121,29 @@ TEST(GoldsmithSalmon, ChoosesAsByHand) {
 }
 
 TEST(GoldsmithSalmon, ChoosesBesideTheTerminalNodeByHand) {
-  // The third cube's path ends at the first cube. One more child of the root: 300. A pair: 24.
+  // The third cube's path ends at the first cube. Adding it to the root costs 300; a pair costs 24.
   const bvh::InsertionHierarchy paired =
       insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(paired.volumes, 2U);
   EXPECT_DOUBLE_EQ(paired.cost, 2.0 + 2.0 * 12.0 / 300.0);
 
-  // The fourth goes into the pair, to one of its two cubes: beside it 12, with it 2 x 6.75.
+  // The fourth cube's path ends at one of the pair's cubes. Adding it beside that cube costs 12;
+  // pairing it with that cube costs 2 x 6.75.
   const bvh::InsertionHierarchy wider = insert_in_order(
       {cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(wider.volumes, 2U);
   EXPECT_EQ(wider.widest, 3U);
   EXPECT_DOUBLE_EQ(wider.cost, 2.0 + 3.0 * 12.0 / 300.0);
 
-  // No volume is inserted above one that the path has passed: the far cube enlarges the only volume
-  // and stays in it.
+  // No volume is inserted above a volume that the path has passed: the far cube enlarges the only
+  // volume and stays in it.
   const bvh::InsertionHierarchy below =
       insert_in_order({cube(0, 1), cube(0, 1), cube(0, 1), cube(9, 10)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(below.volumes, 1U);
   EXPECT_DOUBLE_EQ(below.cost, 4.0);
 
-  // The least growth leads into a volume, or to an object beside it: the fourth into the pair at 0,
-  // the fifth to the cube at 9, with which it makes a pair in the root.
+  // A path follows the least growth, into a volume or to an object: the fourth cube's path leads
+  // into the pair at 0, the fifth cube's to the cube at 9, with which it forms a pair in the root.
   const bvh::InsertionHierarchy two =
       insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F), cube(8.5F, 9.5F)},
                       bvh::Insertion::kTerminal);
@@ -199,7 +200,8 @@ TEST(GoldsmithSalmon, OrderAffectsTheTreeButNotTheHits) {
         EXPECT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr));
       }
     }
-    EXPECT_LT(costs[1], costs[0]) << "a mesh in its own order makes a worse tree than at random";
+    EXPECT_LT(costs[1], costs[0])
+        << "a mesh inserted in its own order makes a worse tree than in random order";
     EXPECT_NE(costs[0], costs[2]);
     bvh::GoldsmithSalmonOptions other_seed = options_for(Order::kShuffled, insertion);
     other_seed.seed = 2;
@@ -224,8 +226,8 @@ TEST(GoldsmithSalmon, BothInsertionsMatchExhaustive) {
   }
 }
 
-// The queue visits the nearest box first wherever it is, and the stack the nearest child first, so
-// the queue never enters more.
+// The queue visits the nearest of all waiting boxes first, and the stack the nearest child first,
+// so the queue never enters more boxes.
 TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
   for (const char* name : {"balls:n=3", "tetra:n=5", "escena1"}) {
     SCOPED_TRACE(name);
@@ -243,7 +245,7 @@ TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
   }
 }
 
-/// Boxes weighed for each object.
+/// Returns the number of boxes weighed per primitive.
 double work_per_primitive(const scenes::Scene& scene, const bvh::GoldsmithSalmonOptions& options) {
   const bvh::GoldsmithSalmon structure(scene, options);
   return static_cast<double>(structure.hierarchy().boxes_weighed) /
@@ -253,8 +255,8 @@ double work_per_primitive(const scenes::Scene& scene, const bvh::GoldsmithSalmon
 TEST(GoldsmithSalmon, BuildingIsFarFromQuadratic) {
   const scenes::Scene small_scene = scenes::load_scene("bumpy:triangles=4000");
   const scenes::Scene large_scene = scenes::load_scene("bumpy:triangles=64000");
-  // 16 times as many; when this was written, the work per primitive grew 2.0 times at most where
-  // the object may be placed anywhere, 3.6 times where the terminal node decides.
+  // The large scene has 16 times as many primitives. When this was written, the work per primitive
+  // grew by a factor of at most 2.0 with kEverywhere, and at most 3.6 with kTerminal.
   for (const auto& [insertion, growth] :
        {std::pair(bvh::Insertion::kEverywhere, 3.0), std::pair(bvh::Insertion::kTerminal, 4.5)}) {
     for (const Order order : {Order::kGiven, Order::kShuffled, Order::kSorted}) {

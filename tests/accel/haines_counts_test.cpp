@@ -4,10 +4,10 @@
 //
 // Result of the comparison: he must have counted a traversal that visits everything it meets, even
 // when a nearer hit is known, and that tests a volume's objects without testing their boxes. Over a
-// hierarchy of objects inserted in random order, such a traversal is within 7% of his box tests and
-// 8% of his polygon tests. Kay and Kajiya's queue stops at the closest hit and needs 42% fewer
-// polygon tests: a better traversal, not another tree. Insertion in scene order results in a tree
-// that costs 30% more box tests; his text does not state which order he used.
+// hierarchy of objects inserted in random order, the counts of such a traversal are within 7% of
+// his for box tests, and within 8% for polygon tests. Kay and Kajiya's queue stops at the closest
+// hit and needs 42% fewer polygon tests: a better traversal, not another tree. Insertion in scene
+// order results in a tree that costs 30% more box tests; he does not state which order he used.
 
 #include <cmath>
 

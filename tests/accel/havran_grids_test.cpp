@@ -11,11 +11,12 @@
 //   and voxels with more than 6 references divided, the numbers of grids on two levels agree within
 //   1% for tetra and teapot, 2% for lattice and 5% for balls (equal numbers of voxels along the
 //   axes), and exactly for balls with cubic voxels. With the same rule (one voxel per reference),
-//   cubic inner grids match his voxels and empty voxels within 5%.
-// - How he rounds the root for voxels with few references is not printed: 37,984 voxels in tetra's
-//   1,056 inner grids are 256 grids of 4^3 and 800 of 3^3. For the eight references of most,
-//   round(cbrt(n)) is only 2^3, so he has more voxels there, and more references. At depth 3 the
-//   difference multiplies, and the counts do not agree.
+//   cubic inner grids match his numbers of voxels and empty voxels within 5%.
+// - His rounding of the root for voxels with few references is not published: 37,984 voxels in
+//   tetra's 1,056 inner grids are 256 grids of 4^3 and 800 of 3^3. Most of the divided voxels have
+//   eight references, for which round(cbrt(n)) gives grids of only 2^3, so his inner grids have
+//   more voxels and more references. At depth 3 the difference multiplies, and the counts do not
+//   agree.
 
 #include <array>
 #include <cmath>

@@ -156,7 +156,8 @@ TEST(HierarchicalGrid, DividesTheVoxelsThatReferToMore) {
   EXPECT_EQ(statistics.nodes, 1U + 8U + 8U);
   EXPECT_EQ(statistics.leaves, 7U + 8U);
   EXPECT_EQ(statistics.empty_leaves, 6U);
-  EXPECT_EQ(statistics.references, 1U + 1U + 8U) << "the second sphere surrounds the middle";
+  EXPECT_EQ(statistics.references, 1U + 1U + 8U)
+      << "the second sphere surrounds the center of its voxel";
   EXPECT_EQ(statistics.depth, 3U);
 }
 
@@ -167,7 +168,8 @@ TEST(HierarchicalGrid, AnotherLevelIsMadeOnlyIfItSavesTime) {
   HierarchicalGridOptions options;
   options.resolution = {1, 1, 1};
   options.inner_density = 0.16;
-  EXPECT_EQ(GridHierarchy(scene, options).grids().size(), 1U) << "each of 8 voxels has all";
+  EXPECT_EQ(GridHierarchy(scene, options).grids().size(), 1U)
+      << "each of the 8 voxels would refer to all spheres";
   options.divide = HierarchicalGridOptions::Divide::kAlways;
   EXPECT_GT(GridHierarchy(scene, options).grids().size(), 1U);
 }

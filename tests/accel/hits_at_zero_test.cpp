@@ -55,7 +55,7 @@ std::vector<Ray> rays_from_triangles(const scenes::Scene& scene, Random& random)
   return rays;
 }
 
-/// Returns how many hits are at t = 0.
+/// Expects the hits of exhaustive search, bit for bit; returns the number of hits at t = 0.
 int expect_bits_of_exhaustive(const std::string& spec, const scenes::Scene& scene,
                               const std::vector<Ray>& rays) {
   const exhaustive::Exhaustive exhaustive(scene);

@@ -133,8 +133,8 @@ TEST(ThreadsOf, EveryModeChangesNoHitAndNoCount) {
   }
 }
 
-/// Records which threads called it and their floating-point mode; each waits until the expected
-/// number has arrived.
+/// Records which threads called it and their floating-point mode. Each thread waits until the
+/// expected number of threads has arrived.
 class Meeting : public TraversalAccelerator<Meeting> {
  public:
   explicit Meeting(std::size_t expected) : expected_(expected) {}

@@ -70,7 +70,7 @@ void expect_right(const Answers& answers, const scenes::Scene& scene, std::span<
   EXPECT_EQ(answers.some_left_any, some_left);
 }
 
-/// Lists shorter and longer than the number of rays in flight; some rays are skipped.
+/// Returns random rays; some directions are too short for the kernels, which skip these rays.
 std::vector<Ray> some_rays(const scenes::Scene& scene, std::uint64_t seed, std::size_t count) {
   Random random(seed);
   std::vector<Ray> rays = verify::random_rays(scene, count, random);
@@ -106,7 +106,8 @@ TEST(InterleavedRays, AreNotForSmallHierarchies) {
   EXPECT_FALSE(build_tile_hierarchy(scene, {}).interleaves_rays);
 }
 
-/// Rays passed on from an image and a pencil to single rays, with more triangles than rays.
+/// Traces an image and a pencil with fewer rays than the scene has triangles, so that their rays
+/// are handed over to single rays.
 TEST(InterleavedRays, ContinueImagesAndPencils) {
   const scenes::Scene large = scenes::load_scene("soup:triangles=250000");
   const TileBeam structure(large, {});
@@ -146,8 +147,7 @@ TEST(InterleavedRays, ContinueImagesAndPencils) {
     different += (any[i] == 1) == structure.any_hit(rays[i], nullptr) ? 0U : 1U;
     occluded += any[i];
   }
-  EXPECT_LE(different, 1U);  // by less than a rounding: the other rays of a pencil are tested in
-                             // float
+  EXPECT_LE(different, 1U);  // the other rays of a pencil are tested in float
   EXPECT_GT(occluded, 100U);
   EXPECT_LT(occluded, 900U);
 }

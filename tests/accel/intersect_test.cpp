@@ -34,7 +34,8 @@ const scenes::Sphere kUnitSphere{{0, 0, 0}, 1.0F, false};
 TEST(IntersectSphere, NearRootThenFarRoot) {
   EXPECT_EQ(hit(kUnitSphere, ray({0, 0, 3}, {0, 0, -1})), 2.0F);
   EXPECT_EQ(hit(kUnitSphere, ray({0, 0, 0}, {0, 0, -1})), 1.0F);
-  EXPECT_EQ(hit(kUnitSphere, ray({0, 0, 3}, {0, 0, -2})), 1.0F) << "t counts in directions";
+  EXPECT_EQ(hit(kUnitSphere, ray({0, 0, 3}, {0, 0, -2})), 1.0F)
+      << "t is in units of the direction's length";
   EXPECT_EQ(hit(kUnitSphere, ray({0, 0, 3}, {0, 0, 1})), std::nullopt);
   EXPECT_EQ(hit(kUnitSphere, ray({0, 1, 3}, {0, 0, -1})), 3.0F) << "tangent";
   EXPECT_EQ(hit(kUnitSphere, ray({0, 1.0001F, 3}, {0, 0, -1})), std::nullopt);
@@ -143,7 +144,7 @@ double distance_to(const scenes::Scene& scene, scenes::PrimitiveId id, const glm
     const double radius = cone.base_radius + s * taper;
     const double slant = taper / glm::length(axis);
     const double beyond = std::max({-s, s - 1.0, 0.0}) * glm::length(axis);
-    // Both are at most the distance from a point of the surface.
+    // Both values are lower bounds of the distance from the surface.
     return std::max(std::abs(glm::length(m - axis * s) - radius) / std::hypot(1.0, slant), beyond);
   }
   const scenes::Polygon& polygon = scene.polygons[primitive.index];

@@ -87,7 +87,7 @@ TEST(KdTree, LeavesReferToExactlyWhatOverlapsThem) {
         const bool referred = std::binary_search(ids.begin(), ids.end(), id);
         // Planes are one tolerance away from surfaces, where rounding decides.
         EXPECT_TRUE(referred || !surface_overlaps(scene, id, box, 0.999 * tolerance)) << id;
-        // More than the definition requires only within rounding of the boundary.
+        // References beyond the definition are allowed only within rounding of the boundary.
         if (referred && options.clip) {
           EXPECT_TRUE(surface_overlaps(scene, id, box, 3.0 * tolerance)) << id;
         }
@@ -171,7 +171,7 @@ TEST(KdTree, TheMedianSplitsLikeKaplan) {
   EXPECT_EQ(one.references, 2U);
   EXPECT_EQ(one.depth, 2U);
 
-  // Across x, y and z: y and z cut an empty half off, on both sides.
+  // Across x, y and z: the splits across y and z each cut off an empty half, on both sides.
   const Statistics three = median_statistics(0, 3);
   EXPECT_EQ(three.nodes, 11U);
   EXPECT_EQ(three.leaves, 6U);
@@ -284,7 +284,8 @@ TEST(KdTreeClip, KeepsThePartOfATriangle) {
   expect_box(bvh::clipped_bounds(scene, piece, {{-1, -1, -1}, {5, 5, 5}}), {0, 0, 0}, {4, 4, 4});
   expect_box(bvh::clipped_bounds(scene, piece, {{1, -1, -1}, {2, 5, 5}}), {1, 0, 0}, {2, 3, 3});
   expect_box(bvh::clipped_bounds(scene, piece, {{2, 1, -1}, {5, 5, 5}}), {2, 1, 1}, {3, 2, 2});
-  EXPECT_FALSE(bvh::clipped_bounds(scene, piece, {{3, 3, 0}, {4, 4, 4}})) << "its box does";
+  EXPECT_FALSE(bvh::clipped_bounds(scene, piece, {{3, 3, 0}, {4, 4, 4}}))
+      << "only its box overlaps";
   expect_box(bvh::whole_bounds(scene, piece, {{3, 3, 0}, {4, 4, 4}}), {3, 3, 0}, {4, 4, 4});
 }
 

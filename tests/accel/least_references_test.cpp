@@ -1,4 +1,5 @@
-// References predicted during construction: never more than there are, and early enough.
+// The number of references predicted during construction: it never exceeds the actual number, and
+// structures that are too large are refused early.
 
 #include "accel/core/least_references.hpp"
 
@@ -101,7 +102,7 @@ TEST(LeastReferences, AreCloseToTheActualNumber) {
             static_cast<double>(references_in(quad, over_quad)));
 }
 
-/// Uses the octree's own count, which refuses nothing within the limit.
+/// Sets the limit to the octree's own reference count, which fits, and to one less, which does not.
 TEST(ReferenceLimit, RefusesNothingThatFits) {
   for (const char* name : {"escena1", "tetra:n=2", "jacks:n=1"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -115,7 +116,8 @@ TEST(ReferenceLimit, RefusesNothingThatFits) {
   }
 }
 
-/// There are so many references that they are estimated, and the actual number is allowed.
+/// Uses so many references that their number is estimated. The limit still admits the actual
+/// number.
 TEST(ReferenceLimit, RefusesNothingThatFitsByEstimates) {
   const scenes::Scene spheres = two_spheres();
   for (const std::string tree :
@@ -151,13 +153,13 @@ TEST(ExpectedReferences, AreRightOnAverage) {
       sum.lists += one.lists / kEstimates;
     }
     const auto references = static_cast<double>(octree::Octree(scene, options).reference_count());
-    EXPECT_GT(references, 5000.0) << "so many are not counted one by one";
+    EXPECT_GT(references, 5000.0) << "too few: they would be counted one by one";
     EXPECT_NEAR(sum.leaves, references, 0.03 * references);
     EXPECT_GT(sum.lists, sum.leaves);
   }
 }
 
-/// Estimates with the largest possible variance: one in a thousand has the whole sum.
+/// Uses estimates with the largest possible variance: one in a thousand has the whole sum.
 TEST(SurelyMoreThan, IsNotMisledByFewLargeEstimates) {
   for (const std::uint64_t most : {1'000, 1'000'000}) {
     const auto all = static_cast<double>(most);
@@ -168,7 +170,7 @@ TEST(SurelyMoreThan, IsNotMisledByFewLargeEstimates) {
   }
 }
 
-/// Returns seconds of processor time until the structure is built or refused, and the message.
+/// Returns the processor time in seconds until the structure is built or refused, and the message.
 std::pair<double, std::string> seconds_to_build(const std::string& spec,
                                                 const scenes::Scene& scene) {
   const std::clock_t begin = std::clock();
@@ -176,9 +178,9 @@ std::pair<double, std::string> seconds_to_build(const std::string& spec,
   return {static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, std::move(message)};
 }
 
-/// The spheres have hundreds of millions of references in the finest cells; without prediction, a
-/// structure is refused only after making 50 million. Each is paired with a smaller structure over
-/// the same scene that fits, with about a hundred thousand.
+/// The spheres have hundreds of millions of references in the finest cells. Without prediction, a
+/// structure would be refused only after making 50 million references. Each such structure is
+/// paired with a smaller one over the same scene that fits: it has about a hundred thousand.
 TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
   const scenes::Scene sphere = one_sphere();
   const scenes::Scene spheres = two_spheres();
@@ -215,7 +217,8 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
     EXPECT_EQ(accepted, "it was accepted");
     const auto [seconds, message] = seconds_to_build(exceeds, scene);
     EXPECT_NE(message.find("000000 references"), std::string::npos) << message;
-    EXPECT_LT(seconds, 10.0 * enough) << "as long as ten builds of a hundredth of the references";
+    EXPECT_LT(seconds, 10.0 * enough)
+        << "refused no sooner than ten builds with a hundredth of the references take";
   }
 }
 
@@ -234,7 +237,7 @@ scenes::Scene alike(int count, bool cones) {
 }
 
 /// Seventy thousand primitives that no plane divides have a hundred times the references of seven
-/// hundred, which fit. They are refused in a fifth of the time that building would take.
+/// hundred such primitives, which fit. The many are refused in a fifth of the time to build them.
 TEST(ReferenceLimit, IsKnownToBeExceededEarlyByPrimitivesInOnePlace) {
   for (const auto& [spec, cones] : std::vector<std::pair<std::string, bool>>{
            {"kd-tree:builder=median", false},
@@ -250,7 +253,7 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarlyByPrimitivesInOnePlace) {
   }
 }
 
-/// Makes one polygon with spikes about its center, whose triangles are needles.
+/// Makes a star-shaped polygon with many spikes, whose triangles are needles.
 scenes::Scene star(int corners) {
   scenes::SceneBuilder builder("star");
   std::vector<glm::dvec3> places;
@@ -271,8 +274,8 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarlyByASceneOfNeedles) {
   EXPECT_LT(seconds, 15.0 * enough);
 }
 
-/// Many primitives, some of which are sampled before the tree is built: their actual number of
-/// references is allowed.
+/// Uses so many primitives that only some of them are sampled before the tree is built. The limit
+/// still admits the actual number of references.
 TEST(ReferenceLimit, RefusesNothingThatFitsByParts) {
   for (const scenes::Scene& scene :
        {alike(5000, false), scenes::load_scene("bumpy:triangles=20000")}) {

@@ -81,7 +81,7 @@ Reflected shaken(Reflected seen, double part, Random& random) {
   return seen;
 }
 
-/// The number of comparisons.
+/// Counts of what was compared.
 struct Compared {
   std::size_t pencils = 0;  ///< that were traced in beams
   std::size_t rays = 0;
@@ -95,7 +95,7 @@ HitBuffer hits_of(const Accelerator& structure, const RayBatch& batch) {
 }
 
 /// Compares each ray of all mirrors' pencils, traced in beams and singly, bit for bit; then repeats
-/// this for the mirrors that these rays see, to a `depth`.
+/// this for the mirrors that these rays hit, up to a `depth`.
 void compare(const scenes::Scene& scene, const beam::BeamTracer& tracer, const Reflected& from,
              int depth, double shake, Compared& compared) {
   Random random(1);
@@ -250,7 +250,7 @@ TEST(MirrorBeams, TheirWorkIsUnchanged) {
   for (const auto& [name, count] : counters.by_name()) {
     if (count != 0 && !name.ends_with("_ns")) work[name] = count;
   }
-  EXPECT_EQ(work["polygon_tests"], work["primitive_tests"]) << "there is nothing else";
+  EXPECT_EQ(work["polygon_tests"], work["primitive_tests"]) << "the scene has only polygons";
   for (const std::string_view name : kTestNames) {
     work.erase(std::string(name));
   }

@@ -1,4 +1,4 @@
-// Properties of samples whose number the leaf determines.
+// Object-space sampling, in which the leaf determines the number of samples of a pixel.
 
 #include "accel/beam/object_space_sampling.hpp"
 

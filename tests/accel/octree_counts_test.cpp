@@ -58,8 +58,8 @@ octree::Octree octree_of(const OctreeRow& row) {
   return octree::Octree(scene_of_row(row), options);
 }
 
-/// Returns the pixels of beams that leave the root without an occupied leaf on their path: the
-/// pixel's ray crosses the root cube through empty leaves only.
+/// Returns the number of pixels in beams that leave the root without meeting an occupied leaf: the
+/// ray of such a pixel crosses only empty leaves of the root cube.
 std::int64_t exit_pixels(const octree::Octree& octree, const scenes::Camera& camera) {
   const PrimaryRays rays(camera, 1280, 1024, 1);
   const octree::AncestorNeighbors neighbors(octree);

@@ -101,7 +101,7 @@ TEST(OctreeNet, TakesOneStepWhereSametClimbs) {
     EXPECT_EQ(net["leaves"], samet["leaves"]);
     EXPECT_EQ(net["empty_leaves"], samet["empty_leaves"]);
     EXPECT_EQ(net["primitive_tests"], samet["primitive_tests"]);
-    // Every ray moves on from a leaf at most once for each leaf.
+    // A ray moves on at most once from each leaf on its path.
     EXPECT_LE(net["neighbor_steps"], net["leaves"]);
     EXPECT_GT(net["neighbor_steps"], net["leaves"] / 2);
     EXPECT_GT(samet["neighbor_steps"], 2 * net["neighbor_steps"]);

@@ -22,8 +22,8 @@ struct HavranRow {
 };
 
 // Havran, "A Summary of Octree Ray Traversal Algorithms", Ray Tracing News 12(2), 1999, TETRA at
-// n = 6: split at the center, a leaf at one object or at the maximum depth (the root being depth
-// 0), objects by their bounding box, the scene's own box.
+// n = 6. Nodes are split at the center down to one object or the maximum depth (the root has depth
+// 0). Objects are represented by their bounding boxes, and the root is the scene's own box.
 class Havran : public ::testing::TestWithParam<HavranRow> {};
 
 TEST_P(Havran, CountsOfTetra) {
@@ -91,8 +91,8 @@ TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
                     EXPECT_TRUE(std::includes(references.begin(), references.end(),
                                               expected.begin(), expected.end()));
                     EXPECT_TRUE(std::is_sorted(references.begin(), references.end()));
-                    // More than the definition requires only within rounding of the boundary (the
-                    // overlap of cones is conservative, so theirs may be more).
+                    // References beyond the definition are allowed only within rounding of the
+                    // boundary, except for cones, whose overlap test is conservative.
                     for (const scenes::PrimitiveId id : references) {
                       if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
                       EXPECT_TRUE(surface_overlaps(scene, id, octree.grid().box(corner, size),

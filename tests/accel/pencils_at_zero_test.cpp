@@ -57,7 +57,7 @@ scenes::Scene prism() {
   return std::move(builder).build();
 }
 
-/// Spheres whose radii and centers make their points along the axes exact.
+/// Returns spheres whose radii and centers make their points along the axes exact.
 scenes::Scene spheres() {
   scenes::SceneBuilder builder("spheres");
   add_floor(builder);
@@ -106,7 +106,7 @@ bool is_at_origin(const std::optional<Hit>& hit) { return hit && hit->t < 1e-6F;
 Counts expect_shadows_of_exhaustive(const scenes::Scene& scene, const TileBeam& structure,
                                     const std::vector<glm::vec3>& places, const glm::vec3& light) {
   std::vector<Ray> rays;
-  // Enough of each that the pencil is not traced by single rays.
+  // Repeats the points until the pencil has enough rays not to be traced by single rays.
   for (int i = 0; i < 1 + 2000 / static_cast<int>(places.size()); ++i) {
     for (const glm::vec3& place : places) rays.push_back({place, 0.0F, light - place, 1.0F});
   }
@@ -162,7 +162,7 @@ void expect_shadows_at_zero(const scenes::Scene& scene) {
   }
 }
 
-// Of 3,055 shadow rays whose origins lie in the plane of the wall, 25 were lost.
+// Of 3,055 shadow rays whose origins lie in the plane of the wall, 25 hits were once lost.
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromAWall) { expect_shadows_at_zero(wall()); }
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromAPrism) { expect_shadows_at_zero(prism()); }
 TEST(PencilsAtZero, HaveTheShadowsOfRaysFromSpheres) { expect_shadows_at_zero(spheres()); }

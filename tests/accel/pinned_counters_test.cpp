@@ -146,7 +146,7 @@ struct PencilRow {
 class PinnedPencilWork : public ::testing::TestWithParam<PencilRow> {};
 
 TEST_P(PinnedPencilWork, IsUnchanged) {
-  if (!HWY_ARCH_X86) GTEST_SKIP() << "not with SSE4";
+  if (!HWY_ARCH_X86) GTEST_SKIP() << "this machine has no SSE4";
   const PencilRow& row = GetParam();
   const scenes::Scene scene = scenes::load_scene(row.scene);
   const auto structure = registry().choose(parse_spec("tile-beam:isa=sse4")).build(scene);

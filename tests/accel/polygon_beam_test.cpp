@@ -57,7 +57,8 @@ PrimaryRays random_image(const scenes::Camera& camera, Random& random) {
           std::array{1, 4, 5}[random.below(3)]};
 }
 
-/// Soups of triangles and concave polygons, coplanar and equal ones, needles, eyes on polygons.
+/// Uses soups of triangles and concave polygons, some of them coplanar, equal or needles, and eyes
+/// on polygons.
 TEST(PolygonBeam, MatchesExhaustiveForCamerasAnywhere) {
   std::size_t hits = 0;
   for (std::uint64_t seed = 1; seed <= 800 && !HasFailure(); ++seed) {
@@ -81,8 +82,8 @@ glm::dvec3 tilted(const glm::dvec3& point, const glm::dvec3& axis) {
   return glm::length(axis) > 0.0 ? point - 2.0 * glm::dot(point, axis) * axis : point;
 }
 
-/// Layers behind one another, at distances from below float resolution to above the slab by which
-/// cells overlap. Ids are in random order, so that ties must be found.
+/// Uses layers one behind another, at distances from below float resolution to more than the
+/// overlap of cells. Ids are in random order, so that ties must be found.
 TEST(PolygonBeam, SeesTheNearestOfArbitrarilyCloseLayers) {
   for (std::uint64_t seed = 1; seed <= 300 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);

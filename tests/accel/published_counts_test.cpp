@@ -1,12 +1,12 @@
 // Havran's published counts for Samet's traversal ("A Summary of Octree Ray Traversal Algorithms",
 // Ray Tracing News 12(2), 1999; TETRA at n = 6), compared with ours.
 //
-// Results of the comparison: leaves and empty leaves per ray agree within 1%, and so do the other
-// two once they are counted in the same way:
+// Results of the comparison: leaves and empty leaves per ray agree within 1%. So do traversal steps
+// and intersection tests once they are counted in the same way:
 // - Traversal steps: ours end with the leaf from which a ray leaves the root, because integer
 //   coordinates show that there is no neighbor; Samet's search climbs to the root first. With these
 //   climbs, counted separately here, the steps agree within 1%; without them, ours are 4% to 7%
-//   fewer.
+//   lower.
 // - Intersection tests: his are not averages over the rays. Divided by the number of rays that hit
 //   (eye rays that see something, shadow rays that are blocked), ours agree with his within 1%; the
 //   average per ray is 5.6 times smaller at every depth. So his figure must be the ratio of the

@@ -161,7 +161,7 @@ TEST(RayClassification, StopsDividingAtItsLimit) {
   options.max_references = 1;
   const RayClassification structure(scene, options);
   for (const Ray& ray : rays_through(scene, 100)) structure.closest_hit(ray, nullptr);
-  EXPECT_EQ(structure.statistics().nodes, kFaces) << "the roots' lists are longer than that";
+  EXPECT_EQ(structure.statistics().nodes, kFaces) << "the roots' lists already exceed the limit";
 }
 
 TEST(RayClassification, ShowsTheSetsOnTheRaysPath) {

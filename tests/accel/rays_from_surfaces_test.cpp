@@ -1,4 +1,4 @@
-// Rays that begin on or next to triangles: the hits that float tests may reject there.
+// Rays that begin on or next to triangles, where float tests might reject hits.
 
 #include <array>
 #include <string>
@@ -20,7 +20,7 @@
 namespace beambench::accel {
 namespace {
 
-/// Returns triangles of all shapes, including needles, in a box of that size.
+/// Returns triangles of all shapes, including needles, in a box of the given size.
 scenes::Scene triangles_of_size(double size, std::uint64_t seed) {
   scenes::SceneBuilder builder("triangles");
   Random random(seed);

@@ -206,8 +206,8 @@ TEST(RefractedBeams, CrossPlanesNextToTheEye) {
   }
 }
 
-// The basis of the beams: beyond the band of a line, rays cross the planes in its order unless they
-// cross both before their origins.
+// The assumption that beams rely on: beyond the band of a line, rays cross its two planes in the
+// order given by the line, unless they cross both before their origins.
 TEST(RefractedBeams, CrossPlanesInTheOrderOfTheLines) {
   std::size_t sure = 0, beside = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
@@ -237,7 +237,7 @@ TEST(RefractedBeams, CrossPlanesInTheOrderOfTheLines) {
       nearby.nearest = std::min(nearby.nearest, course.start);
     }
     if (nearby.deviation > 0.1) continue;
-    // Planes of cells of which some are next to the eye.
+    // Some planes of these cells are next to the eye.
     CellGrid grid;
     grid.cells = glm::ivec3(8);
     grid.cell = dvec3(random.uniform(0.2, 1.0));
@@ -254,7 +254,7 @@ TEST(RefractedBeams, CrossPlanesInTheOrderOfTheLines) {
           for (std::size_t i = 0; i < seen.rays.size(); i += 7) {
             const auto place = beam::place_in(image, seen.samples[i]);
             const glm::dvec2 at = (glm::dvec2(place.pixel) + 0.5) / 24.0;
-            // `begin_beams` leaves such rays out.
+            // Other rays are left out by `begin_beams`.
             const auto is_left = [&](const beam::Crossing& crossing) {
               beam::Crossing other = crossing;
               other.side = static_cast<std::int16_t>(-crossing.side);

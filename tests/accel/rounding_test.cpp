@@ -23,8 +23,8 @@ TEST(Rounding, ToFloatAndBackLosesBits) {
   EXPECT_EQ(rounded.y, 0x1.c21c22p-3);
 }
 
-// The case where it did damage: inlined into a structure's loop over pixels, rays kept unrounded
-// directions, and 7% of the hits in this scene differed from those of single rays.
+// The case in which missing rounding did damage: inlined into a structure's loop over pixels, rays
+// kept unrounded directions, and 7% of the hits in this scene differed from those of single rays.
 TEST(Rounding, ATraceUsesTheExactRaysOfTheCamera) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 4);

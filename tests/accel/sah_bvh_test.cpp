@@ -100,7 +100,7 @@ TEST_P(SahBvhBuilders, LoseNoSliverSeenFromAfar) {
     const scenes::Primitive& primitive = scene.primitives[random.below(scene.primitives.size())];
     glm::dvec3 target;
     if (primitive.kind == scenes::PrimitiveKind::kSphere) {
-      // Returns a point on the silhouette, where one ray hits and its neighbor does not.
+      // Aim at the silhouette, where one ray hits and its neighbor does not.
       const glm::dvec3 center(scene.spheres[primitive.index].center);
       const glm::dvec3 beside = glm::cross(center - glm::dvec3(ray.origin), point());
       target = center + glm::normalize(beside) * 1e-4 * random.uniform(0.99, 1.0);
@@ -240,7 +240,7 @@ TEST(SahBvh, ReportsItsWork) {
   EXPECT_TRUE(found);
 }
 
-// The float tests leave few candidates to the canonical one.
+// The float tests leave few candidates to the canonical test.
 TEST(SahBvh, ConfirmsAboutOncePerHit) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
   const bvh::SahBvh structure(scene, {});

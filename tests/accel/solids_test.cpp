@@ -82,7 +82,7 @@ TEST(Solids, AreNeitherOpenNorTwistedNorFlat) {
   PolygonMesh flat = whole;  // folded paper: the same triangle from both sides
   flat.polygons = {{0, 1, 2}, {2, 1, 0}};
   EXPECT_EQ(sizes({flat}), Sizes{});
-  // The first is valid, whatever is next to it.
+  // The first body is a solid, whatever is next to it.
   EXPECT_EQ(sizes({open, moved(whole, dvec3(4.0)), moved(twisted, dvec3(8.0))}), Sizes{4});
 }
 
@@ -97,7 +97,7 @@ TEST(Solids, AreNotSurfacesThatCrossThemselves) {
     PolygonMesh pulled = ball;
     pulled.vertices[i] = -1.5 * at;
     EXPECT_EQ(sizes({pulled}), Sizes{}) << "vertex " << i;
-    // Past its neighbors, so that triangles are folded over.
+    // The vertex is pulled past its neighbors, so triangles are folded over.
     pulled.vertices[i] = at + dvec3(-at.y, at.z, at.x);
     EXPECT_EQ(sizes({pulled}), Sizes{}) << "vertex " << i;
   }
@@ -128,7 +128,7 @@ TEST(Solids, MayHaveAFinOnAnEdge) {
   PolygonMesh mesh = tests::tetrahedron();
   mesh.vertices.emplace_back(3.0, 3.0, 3.0);
   mesh.polygons.push_back({0, 1, 4});
-  EXPECT_LE(sizes({mesh}).size(), 1U);  // the fin itself is not one
+  EXPECT_LE(sizes({mesh}).size(), 1U);  // the fin itself is not a solid
   for (const std::uint32_t size : sizes({mesh})) EXPECT_EQ(size, 4U);
 }
 
@@ -136,7 +136,7 @@ TEST(Solids, IgnoreTheSignOfZero) {
   PolygonMesh mesh = moved(tests::tetrahedron(), dvec3(1.0));
   const auto origin = std::ranges::find(mesh.vertices, dvec3(2.0, 0.0, 0.0));
   ASSERT_NE(origin, mesh.vertices.end());
-  // For one triangle, a second vertex at the same position, with zeros of the opposite sign.
+  // One triangle uses a second vertex at the same position, with zeros of the opposite sign.
   mesh.vertices.emplace_back(2.0, -0.0, -0.0);
   auto& corners = mesh.polygons.front();
   std::ranges::replace(corners, static_cast<std::uint32_t>(origin - mesh.vertices.begin()),

@@ -116,7 +116,7 @@ TEST(SpatialBuilder, EachPointOfATriangleIsInALeafThatRefersToIt) {
   }
 }
 
-// Crowded, so that some (23 here) are divided.
+// The primitives are so crowded that some (23 here) are divided.
 TEST(SpatialBuilder, EachPointOfASphereOrConeIsInALeafThatRefersToIt) {
   scenes::SceneBuilder builder("round");
   Random random(7);

@@ -100,7 +100,7 @@ class Onlooker {
     const glm::dvec3 extent(glm::dvec3(scene.bounds.upper) - lower);
     size_ = glm::length(extent);
     if (!inside) return;
-    // Eyes in a closed room: points that its camera sees.
+    // In a closed room, eyes are at points that its camera sees.
     const glm::dvec3 camera(scene.cameras[0].from);
     while (eyes_.size() < 256) {
       const glm::dvec3 eye =

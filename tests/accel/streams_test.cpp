@@ -47,8 +47,8 @@ void expect_hits_of_exhaustive(const scenes::Scene& scene, const Accelerator& st
   }
 }
 
-/// Difficult rays, some of which end at their own hits, have lengths that streams cannot trace, or
-/// come from far away.
+/// Returns difficult rays: some end at their own hits, some have lengths that streams cannot trace,
+/// and some come from far away.
 std::vector<Ray> difficult_rays(const scenes::Scene& scene, std::uint64_t seed, std::size_t count) {
   Random random(seed);
   std::vector<Ray> rays = verify::random_rays(scene, count, random);
@@ -168,7 +168,8 @@ TEST_P(Streams, LoseNoHitsOnMeshes) {
   }
 }
 
-// Lists for which there is no room continue as packets; several parts of a list have one result.
+// A stream without room for more lists continues with packets. A list that is traced in several
+// parts has the same hits as single rays.
 TEST_P(Streams, TraceListsOfAnyLength) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
   const SahBvh streams(scene, {});
@@ -256,13 +257,13 @@ TEST(StreamsOfTileBeam, AreBuiltForLists) {
   EXPECT_EQ(bytes("auto", false), bytes("single", true));
 }
 
-/// Returns the diffuse rays of a square image with that many pixels a side.
+/// Returns the diffuse rays of a square image with `side` pixels on each side.
 rays::TraceInput diffuse_rays(const scenes::Scene& scene, int side) {
   const rays::ImageOfRays image = rays::image_of(scene.cameras.front(), {{side, side}}, 1);
   return rays::make_trace_input(scene, image, rays::parse_ray_choice("diffuse"));
 }
 
-/// Returns the closest hits of a list, and the work for them.
+/// The closest hits of a list, and the work of finding them.
 struct CountedHits {
   HitBuffer hits;
   WorkCounters work;
@@ -273,7 +274,7 @@ struct CountedHits {
   }
 };
 
-// Nearly all hits are certain in float.
+// Nearly all hits can be decided in float.
 TEST_P(Streams, NeedTheCanonicalTestForFewHits) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
   const auto [hits, work] = CountedHits(SahBvh(scene, {}), diffuse_rays(scene, 128));
@@ -283,7 +284,7 @@ TEST_P(Streams, NeedTheCanonicalTestForFewHits) {
   EXPECT_EQ(work.by_name().at("stream_left"), 0U);
 }
 
-// Memory that an earlier stream needed does not count as room for another one.
+// Memory left over from an earlier stream does not count as room for the next stream.
 TEST(StreamCounters, DoNotDependOnEarlierStreams) {
   const scenes::Scene scene = scenes::load_scene("closed-room:detail=4");
   const SahBvh structure(scene, {});

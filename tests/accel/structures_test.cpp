@@ -48,8 +48,8 @@ std::string name_of_check(const ::testing::TestParamInfo<CheckOfStructure>& info
 
 class Contract : public ::testing::TestWithParam<CheckOfStructure> {};
 
-/// Returns the number of random scenes of each check: more than in `beambench selftest`. A
-/// sanitizer uses few, because it finds just as much in them (.ci/run).
+/// Returns the number of random scenes of each check: more than in `beambench selftest`. Builds
+/// with sanitizers use few scenes, which reveal just as much (.ci/run).
 std::uint64_t random_scenes() {
   return tests::number_from("BEAMBENCH_CONTRACT_SCENES", tests::in_full(240, 80));
 }

@@ -223,7 +223,8 @@ std::vector<scenes::Camera> cameras_at(const glm::vec3& eye) {
   return cameras;
 }
 
-/// Counts the samples that differ from exhaustive search at the eye. Elsewhere float may differ.
+/// Counts the samples that differ from exhaustive search in a hit at the eye. Other hits may differ
+/// by rounding.
 std::size_t wrong_at_eye(const scenes::Scene& scene, const PrimaryRays& rays,
                          const HitBuffer& image) {
   const exhaustive::Exhaustive exhaustive(scene);
@@ -309,8 +310,8 @@ TEST(TileBeam, AClosedMeshHasNoGap) {
     for (int view = 0; view < 200; ++view) {
       scenes::Camera camera = random_camera(scene, random);
       const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
-      // Well inside: the mesh is a bumpy sphere with a radius of at least a quarter of its box's
-      // side.
+      // The eye is well inside: the mesh is a bumpy sphere whose radius is at least a quarter of
+      // its box's side.
       const glm::vec3 to = 0.2F * (scene.bounds.upper - scene.bounds.lower);
       for (int axis = 0; axis < 3; ++axis) {
         camera.from[axis] = middle[axis] + to[axis] * static_cast<float>(random.uniform(-1.0, 1.0));
@@ -472,7 +473,7 @@ TEST(TileBeam, CanBeRestrictedToAnInstructionSet) {
 TEST(TileBeam, LargeImagesUseStreamingStores) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const tile_beam::TileBeam structure(scene, {});
-  const PrimaryRays rays(scene.cameras.front(), 448, 301, 1);  // as many as are streamed, and odd
+  const PrimaryRays rays(scene.cameras.front(), 448, 301, 1);  // large enough, and odd
   EXPECT_EQ(compare(scene, rays, image_of(structure, rays)).errors, 0U);
 }
 

@@ -50,7 +50,7 @@ TEST(TopDownOctree, LeavesTheirOrderAndTestsMatchSamet) {
       const Ray ray = tests::random_ray(scene, random);
       const auto expected = samet.path(ray);
       const auto hit = exhaustive.closest_hit(ray, nullptr);
-      // Its leaves have other numbers.
+      // Leaves built on demand are numbered differently.
       ASSERT_EQ(iterative_on_demand.path(ray).size(), expected.size());
       ASSERT_EQ(iterative_on_demand.closest_hit(ray, nullptr), hit);
       for (const Accelerator* structure : {static_cast<const Accelerator*>(&glassner),

@@ -1,4 +1,5 @@
-// Figures of hierarchies: known values of small ones, and the same model for all structures.
+// Quality figures of hierarchies: known values for small ones, and the same model for all
+// structures.
 
 #include "accel/core/tree_quality.hpp"
 
@@ -98,14 +99,14 @@ TEST(TreeQuality, SamplesPointsOfSolids) {
   add_leaf(tree, upper, {1});
   add_leaf(tree, upper, {0});
   tree.close();
-  // Half of the sphere; of the cone, the part above a quarter of its height: 9/16.
+  // Half of the sphere, and 9/16 of the cone: the part above a quarter of its height.
   const double sphere = 4.0 * std::numbers::pi;
   const double cone = std::numbers::pi * 2.0 * std::sqrt(20.0);
   EXPECT_NEAR(tree.epo(scene), (0.5 * sphere + 0.5625 * cone) / (sphere + cone), 0.01);
 }
 
 TEST(TreeQuality, SahCostFollowsTheModel) {
-  // A root of 2 x 1 x 1, half of its area 5; leaves of area 3.
+  // A root of 2 x 1 x 1 with half area 5; leaves with half area 3.
   TreeQuality tree;
   tree.open(box(0, 2));
   add_leaf(tree, box(0, 1), {0, 0});

@@ -56,8 +56,8 @@ TEST(VoxelGrid, ListsHoldExactlyWhatOverlapsTheVoxel) {
         for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
           const bool listed = std::binary_search(references.begin(), references.end(), id);
           if (listed == surface_overlaps(scene, id, box, overlap_tolerance(scene))) continue;
-          // Differs from the definition only within rounding of the boundary. The overlap of cones
-          // is conservative, and may be true for a voxel where it is false for a surrounding block.
+          // Lists may exceed the definition only within rounding of the boundary. The overlap test
+          // of cones is conservative: it may be true for a voxel but false for a surrounding block.
           if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
           EXPECT_TRUE(listed && surface_overlaps(scene, id, box, 3.0 * overlap_tolerance(scene)))
               << "primitive " << id << " voxel " << voxel;
@@ -107,7 +107,8 @@ TEST(VoxelGrid, LazyEvaluatesOnlyWhatRaysVisit) {
   EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), visited);
   EXPECT_EQ(more(lazy->statistics(), "evaluated_share"), visited / 4096.0);
   lazy->closest_hit(ray, nullptr);
-  EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), visited) << "once is enough";
+  EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), visited)
+      << "each voxel is evaluated only once";
 }
 
 TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {

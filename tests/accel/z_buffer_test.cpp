@@ -60,7 +60,7 @@ TEST(ZBuffer, MatchesExhaustiveForCamerasAnywhere) {
   EXPECT_GT(hits, 100'000U);
 }
 
-/// Triangles, spheres and cones across the plane of the eye, behind it and around it.
+/// Uses triangles, spheres and cones across the plane of the eye, behind the eye and around it.
 TEST(ZBuffer, ClipsPrimitivesBehindTheEye) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
@@ -98,7 +98,7 @@ TEST(ZBuffer, TestsLittleMoreThanIsVisible) {
     const PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
     const Traced found = traced("z-buffer", scene, rays);
     EXPECT_EQ(found.hits, traced("exhaustive", scene, rays).hits);
-    // Each sample that is seen is tested at least once, and again for what hides it.
+    // Each sample that hits is tested at least once, and again for each primitive in front.
     EXPECT_GE(found.tests, hit_count(found.hits));
     EXPECT_LE(found.tests, 8 * hit_count(found.hits));
   }

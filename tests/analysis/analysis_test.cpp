@@ -84,7 +84,7 @@ TEST(ReasonsForCare, BeginWithAMachineThatWasNotSteady) {
   const Analysis analysis = analyze(run);
   const TimeRatio ratio = analysis.views.at(0).ranked.at(1).ratio;
   EXPECT_LT(ratio.interval->low, 2.0 * (1.0 - analysis.steadiness->excess() / 2))
-      << "widened by what chance does not explain";
+      << "widened by the variation that chance does not explain";
 }
 
 TEST(ReasonsForCare, ARecordOfOneProcessIsNotRanked) {
@@ -153,7 +153,7 @@ TEST(Overhead, IsTheHarnesssLargestShare) {
   EXPECT_TRUE(
       says(describe(overheads), {"at most 2%", "(escena1/b/100x10", "trace_net_ms_median"}));
   for (CellRecord& each : cells) each.verdict = Verdict::kMismatch;
-  EXPECT_TRUE(largest_overheads(run_of(cells)).empty()) << "times that are wrong are no measure";
+  EXPECT_TRUE(largest_overheads(run_of(cells)).empty()) << "wrong times are not used";
   cells[1] = with_share("b", single, 1.0, 50.0);
   cells[1].verdict = Verdict::kBaseline;
   EXPECT_TRUE(largest_overheads(run_of(cells)).empty()) << "null is the harness's time itself";
@@ -161,7 +161,7 @@ TEST(Overhead, IsTheHarnesssLargestShare) {
   EXPECT_TRUE(largest_overheads(run_of(cells)).empty())
       << "shading is part of the work of a whole picture";
   cells[1] = with_share("b", QueryPath::kImageOwn, 0.0, 50.0);
-  EXPECT_TRUE(largest_overheads(run_of(cells)).empty()) << "it has no such part";
+  EXPECT_TRUE(largest_overheads(run_of(cells)).empty()) << "this path has no separate harness time";
 }
 
 TEST(Overhead, IsStatedForEachQueryPath) {

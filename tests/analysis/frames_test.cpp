@@ -29,7 +29,7 @@ CellRecord cell_in(int frame, bool updated, double trace_ms) {
   return cell;
 }
 
-/// Returns a structure whose trace after an update takes 5 ms plus `slower` per frame.
+/// Returns a run in which the trace after an update takes 5 ms plus `slower` per frame.
 measure::Run run_with(const std::vector<int>& frames, double slower) {
   std::vector<CellRecord> cells;
   for (const int frame : frames) {
@@ -61,7 +61,8 @@ TEST(Frames, WithoutLossUpdatesPayOffInAllFrames) {
 }
 
 TEST(Frames, ARebuildPaysOffAfterSomeFrames) {
-  // An update costs 7 ms and 2 ms more in each frame. The mean is 15; 24/2; 35/3; 48/4.
+  // A frame costs 15 ms after a build, and 7 ms plus 2 ms per frame since then after an update. The
+  // mean over 1, 2, 3 and 4 frames is 15, 24/2, 35/3 and 48/4 ms.
   const RebuildInterval interval = rebuild_interval(frame_series(run_with({0, 5, 10}, 2.0))[0]);
   EXPECT_FALSE(interval.is_all);
   EXPECT_EQ(interval.frames, 3U);

@@ -67,7 +67,8 @@ TEST(Csv, NoTextIsAFormula) {
   EXPECT_EQ(csv_field("@x"), "'@x");
   EXPECT_EQ(csv_field("\tx"), "'\tx");
   EXPECT_EQ(csv_field("\rx"), "\"'\rx\"");
-  EXPECT_EQ(csv_field("'x"), "''x") << "an apostrophe that readers drop is never the text's own";
+  EXPECT_EQ(csv_field("'x"), "''x")
+      << "readers drop an apostrophe that was added, not the text's own";
   EXPECT_EQ(csv_table(std::vector{Row{{"=a", -1.5}, {"b", -2}, {"c", "-2"}}}),
             "'=a,b,c\n-1.5,-2,'-2\n");
 }
@@ -157,7 +158,7 @@ TEST(CellRow, SummarizesTheRepetitions) {
   EXPECT_EQ(row.at("allocated_bytes"), 4096);
   EXPECT_EQ(row.at("peak_build_bytes"), 8192);
   EXPECT_EQ(row.at("isa"), "AVX2");
-  EXPECT_TRUE(row.at("structure_isa").is_null()) << "it does not choose";
+  EXPECT_TRUE(row.at("structure_isa").is_null()) << "the structure does not choose one";
 }
 
 TEST(CellRow, NamesTheInstructionSetThatTheStructureChose) {

@@ -59,7 +59,7 @@ inline measure::CellRecord of_one_process(measure::CellRecord cell) {
   return cell;
 }
 
-/// Returns the manifest of a run on a quiet machine that has ended.
+/// Returns the manifest of a finished run on a quiet machine.
 inline nlohmann::ordered_json quiet_manifest() {
   return {{"run_id", "20260101-000000.000-test"},
           {"time_utc", "2026-01-01T00:00:00Z"},
@@ -83,7 +83,7 @@ inline measure::Run run_of(std::vector<measure::CellRecord> cells,
   return run;
 }
 
-/// Eight nearly equal repetitions.
+/// Returns eight nearly equal times.
 inline std::vector<double> rounds(double ms) {
   return {ms, ms * 1.01, ms * 0.99, ms, ms * 1.02, ms, ms, ms * 0.98};
 }

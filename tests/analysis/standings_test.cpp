@@ -54,7 +54,7 @@ TEST(BlockTotals, UseTheClockCommonToAllContenders) {
   for (measure::Repetition& one : cells[1].repetitions) one.trace_ms *= 2.0;  // waited
   const std::vector<BlockTotals> disturbed = block_totals(run_of(cells));
   EXPECT_EQ(disturbed[0].clock, measure::TraceClock::kCpu);
-  EXPECT_EQ(disturbed[0].ms, (TimesByBlock{{0, 1.0}, {1, 2.0}})) << "no CPU time of its builds";
+  EXPECT_EQ(disturbed[0].ms, (TimesByBlock{{0, 1.0}, {1, 2.0}})) << "its builds have no CPU time";
   EXPECT_EQ(disturbed[1].ms, (TimesByBlock{{0, 3.0}, {1, 4.0}}));
   cells[0] = of_one_process(cells[0]);
   EXPECT_EQ(block_totals(run_of(cells)).size(), 1U);

@@ -129,7 +129,7 @@ TEST(ShownCells, AreThePlacesThatRaysEnteredIfNothingElseIsKnown) {
   EXPECT_EQ(few.of, 5U);
 }
 
-// A page shows the hit as the best of the tests.
+// A page takes the closest of a path's tests as the hit.
 TEST(Paths, EndInTheHitOfTheImage) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const accel::PrimaryRays rays = small_image(scene).rays();
@@ -159,7 +159,7 @@ TEST(Paths, EndInTheHitOfTheImage) {
   }
 }
 
-// The inspector's path of one sample traces the whole image, and has the same leaves.
+// To return the path of one sample, the inspector traces the whole image; its leaves are the same.
 TEST(Paths, FollowTheLeavesInTheBeamsOfTheImage) {
   const scenes::Scene scene = scenes::load_scene("escena2");
   const accel::PrimaryRays rays = small_image(scene).rays();
@@ -251,7 +251,8 @@ TEST(ExplainPage, HoldsDataThatLooksLikeHtml) {
     const std::string page = explain_page({{"scene", "</script><script>alert(1)</script>@THREE@"}});
     EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
     EXPECT_NE(page.find("\\u003c/script>"), std::string::npos);
-    EXPECT_NE(page.find("@THREE@"), std::string::npos) << "data are not searched for marks";
+    EXPECT_NE(page.find("@THREE@"), std::string::npos)
+        << "placeholders in the data are not replaced";
   } catch (const InputError& error) {
     GTEST_SKIP() << error.what();
   }

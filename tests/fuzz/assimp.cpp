@@ -1,6 +1,6 @@
 // The formats that Assimp reads, each input in its own process, as in the program. This is slow,
 // and the importer's coverage is not recorded, so inputs are mutated blindly. The first line of an
-// input is the ending, the rest the file.
+// input is the file's ending; the remaining lines are the file.
 
 #include <csignal>
 #include <cstdlib>
@@ -21,8 +21,8 @@ namespace {
 
 using namespace beambench;
 
-/// Handles a crash of the importer: the parent reports it, and libFuzzer, of which the child is a
-/// copy, must not treat it as a fault.
+/// Removes libFuzzer's handlers from the child process: the parent reports a crash of the importer,
+/// and the child's copy of libFuzzer must not treat it as a fault.
 void forget_fuzzer() {
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGALRM}) {
     std::signal(signal, SIG_DFL);
@@ -30,7 +30,7 @@ void forget_fuzzer() {
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(nullptr);
 }
 
-/// Runs once per process. Without a cache folder, each input is imported.
+/// Prepares a process, once. Without a cache folder, each input is imported.
 bool prepare() {
   for (const char* place : {"BEAMBENCH_CACHE", "XDG_CACHE_HOME", "HOME"}) ::unsetenv(place);
   return ::pthread_atfork(nullptr, nullptr, forget_fuzzer) == 0;
@@ -48,9 +48,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string name = "input." + std::string(text.substr(0, line));
   const std::string ending = scenes::mesh::mesh_ending(name);
   if (ending.empty() || name != "input." + ending) return 0;
-  if (!scenes::mesh::importer_of(ending).starts_with("assimp"))
-    return 0;  // belongs to another
-               // target
+  if (!scenes::mesh::importer_of(ending).starts_with("assimp")) return 0;  // read by another target
   const auto file = folder.write(name, text.substr(line + 1));
   fuzz::accepted([&] {
     return scenes::mesh::load_mesh({file, name, scenes::mesh::usual_orientation(ending)});

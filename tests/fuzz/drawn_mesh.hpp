@@ -1,6 +1,6 @@
 #pragma once
-// Meshes drawn from the bytes of an input, their numbers as text, and the scene that each must
-// become. Nothing here calls a reader or shares code with the readers.
+// Meshes drawn from the bytes of an input, their numbers as text, and the expected scene of each.
+// This code neither calls a reader nor shares code with the readers.
 
 #include <algorithm>
 #include <array>
@@ -27,8 +27,8 @@
 
 namespace beambench::fuzz {
 
-/// Draws numbers from the bytes of an input, then at random, seeded with all bytes, so that every
-/// input, however short, yields a different file.
+/// Draws numbers from the bytes of an input; after the last byte, draws them at random. All bytes
+/// seed the random numbers, so that every input, however short, yields a different file.
 class Draw {
  public:
   explicit Draw(std::string_view bytes) : bytes_(bytes), state_(0xcbf29ce484222325U) {
@@ -133,7 +133,7 @@ inline float rounded_beyond(double value) {
   return is_middle ? farther : nearest;
 }
 
-/// Returns a coordinate of a text that is read as a float.
+/// Returns a coordinate for a text file, which is read as a float.
 inline DrawnNumber drawn_decimal(Draw& draw) {
   const double value = drawn_double(draw);
   const auto nearest = static_cast<float>(value);
@@ -160,7 +160,7 @@ inline DrawnNumber drawn_decimal(Draw& draw) {
 
 using Corners = std::array<glm::vec3, 3>;
 
-/// Adds the triangles of a face, as they must be in the scene.
+/// Adds the expected triangles of a face.
 inline void expect_face(std::vector<Corners>& triangles, const std::vector<glm::vec3>& vertices,
                         const std::vector<std::uint32_t>& face) {
   std::vector<glm::vec3> places;
@@ -197,8 +197,8 @@ inline std::optional<std::uint64_t> hash_of(const std::vector<Corners>& triangle
   });
 }
 
-/// Throws std::logic_error, with the file, unless reading returns the scene of these triangles or,
-/// if there are none, is refused. `read` returns an imported mesh.
+/// Throws std::logic_error, with the file, unless reading returns the scene of the expected
+/// triangles or, if none are expected, refuses the file. `read` returns an imported mesh.
 template <class Read>
 void check_scene(const std::vector<Corners>& expected, std::string_view file, Read&& read) {
   const auto fail = [&](std::string_view how) {

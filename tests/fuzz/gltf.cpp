@@ -1,4 +1,4 @@
-// glTF, as text and binary: an input that names `self.bin` is its own buffer.
+// glTF, text and binary: an input that names `self.bin` is also its own buffer.
 
 #include <string>
 

@@ -1,4 +1,4 @@
-// Files of hits, binary and CSV, read in parts.
+// Hit files, binary and CSV, read in parts.
 
 #include <cstddef>
 

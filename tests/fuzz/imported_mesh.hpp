@@ -10,10 +10,10 @@
 
 namespace beambench::fuzz {
 
-/// Checks that a scene can be made of it or is refused, and that the cache returns the same mesh.
+/// Checks that the mesh becomes a scene or is refused, and that the cache returns the same mesh.
 inline void check_imported(const scenes::mesh::ImportedMesh& imported) {
   const std::string bytes = encode(imported);
-  require(encode(scenes::mesh::decode(bytes)) == bytes, "a mesh is another one in the cache");
+  require(encode(scenes::mesh::decode(bytes)) == bytes, "the cache returns a different mesh");
   accepted([&] {
     return mesh_scene(imported.mesh, "input", scenes::mesh::Orientation{},
                       {imported.cameras, imported.lights});

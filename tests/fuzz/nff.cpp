@@ -29,7 +29,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string once = written(read->scene);
   const scenes::Scene again = scenes::nff::parse_nff(once, "input.nff").scene;
   fuzz::require(scenes::scene_hash(again) == scenes::scene_hash(read->scene),
-                "a scene that was written has other primitives when it is read again");
+                "a scene that was written has different primitives when it is read again");
   fuzz::require(written(again) == once, "a scene that was read again is written differently");
   return 0;
 }

@@ -174,7 +174,7 @@ void add_faces(Draw& draw, const std::vector<glm::vec3>& vertices, DrawnPly& ply
   ply.elements.push_back(listed(draw, "face", lists, draw.of(kTypes)));
 }
 
-/// Adds strips, some of which are divided by -1.
+/// Adds lists of strips, separated by -1.
 void add_strips(Draw& draw, const std::vector<glm::vec3>& vertices, DrawnPly& ply) {
   std::vector<std::vector<double>> lists(draw.below(3));
   for (auto& list : lists) {

@@ -1,4 +1,4 @@
-// Files of rays, binary and CSV: rays that were read can be written and read back bit for bit.
+// Ray files, binary and CSV: rays that were read can be written and read back bit for bit.
 
 #include <algorithm>
 #include <cstring>
@@ -31,6 +31,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto written = folder.path() / "written.rays";
   rays::write_ray_file(written, *set, {});
   fuzz::require(same_bits(rays::read_ray_file(written), *set),
-                "rays that were written are others when they are read again");
+                "rays that were written differ when they are read again");
   return 0;
 }

@@ -26,11 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The time limit for an input, after which SIGALRM ends the process. Generous, for the sanitizers.
+/// The time limit for an input, after which SIGALRM ends the process; generous for the sanitizers.
 constexpr unsigned kSecondsForOne = 60;
 
-/// Returns a file, or all files of a folder, sorted; nothing for a missing path, because no fault
-/// has been found yet.
+/// Returns a file, or all files of a folder, sorted. A missing path has no files: no fault of the
+/// target has been found yet.
 std::vector<fs::path> files_of(const fs::path& path) {
   if (!fs::exists(path)) return {};
   if (!fs::is_directory(path)) return {path};
@@ -62,8 +62,8 @@ struct Result {
   std::size_t faults = 0;
 };
 
-/// Names each file on standard error before it is read, so that if the process ends, the last line
-/// names the cause.
+/// Runs the target over files. Prints each file's name on standard error first: if the process
+/// ends, the last line names the cause.
 Result replay(std::span<char*> arguments) {
   Result result;
   for (const char* argument : arguments) {
@@ -76,8 +76,8 @@ Result replay(std::span<char*> arguments) {
   return result;
 }
 
-/// Runs over that many inputs of eight random bytes, the same each time. In targets that write
-/// valid files, they determine the whole file (`Draw`).
+/// Runs the target over `count` inputs of eight random bytes, the same in each run. In targets that
+/// write valid files, these bytes determine the whole file (`Draw`).
 Result run_over_random_inputs(std::size_t count) {
   Result result;
   Random random(1);
@@ -86,7 +86,7 @@ Result run_over_random_inputs(std::size_t count) {
     std::array<char, sizeof(bits)> input{};
     std::memcpy(input.data(), &bits, sizeof(bits));
     if (holds(input)) continue;
-    std::fprintf(stderr, "by random input %zu\n", result.inputs);
+    std::fprintf(stderr, "with random input %zu\n", result.inputs);
     ++result.faults;
   }
   return result;
@@ -95,8 +95,8 @@ Result run_over_random_inputs(std::size_t count) {
 }  // namespace
 }  // namespace beambench::fuzz
 
-/// Takes files and folders, or --random COUNT. Exits with 1 if the target fails for an input, or
-/// without inputs, and with 2 if COUNT is not a number.
+/// Takes files and folders, or --random COUNT. Exits with 1 if the target fails for an input or
+/// there are no inputs, and with 2 if COUNT is invalid.
 int main(int count, char** arguments) {
   const std::span given(arguments + 1, static_cast<std::size_t>(count - 1));
   beambench::fuzz::Result result;

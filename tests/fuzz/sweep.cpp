@@ -23,7 +23,7 @@ bool has_small_scenes(const measure::SweepConfig& config) {
   });
 }
 
-/// Returns whether there are few cells: they are made one by one, each with its names.
+/// Returns whether there are few cells. They are created one by one, each with its names.
 bool has_few_cells(const measure::SweepConfig& config) {
   constexpr std::size_t kFew = 2000;
   return config.scenes.size() * config.structures.size() * config.resolutions.size() *

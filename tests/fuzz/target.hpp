@@ -12,8 +12,8 @@
 
 #include "scenes/base/error.hpp"
 
-/// The entry point of a target: libFuzzer calls it with its own inputs, replay.cpp with those of
-/// files. Returns 0. Anything that ends the process or throws is a fault of the reader.
+/// The entry point of a target: libFuzzer calls it with its own inputs, replay.cpp with the
+/// contents of files. Returns 0. Anything that ends the process or throws is a fault of the reader.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace beambench::fuzz {

@@ -56,7 +56,7 @@ TEST(Blocks, HaveTheValueOfTheirFastestUndisturbedRepetition) {
   EXPECT_EQ(trace_by_block(cell, TraceClock::kCpu), (Times{{0, 4.0}, {1, 10.0}, {2, 11.0}}));
   EXPECT_FALSE(is_disturbed(cell));
   cell.repetitions.push_back(timed(3, 20.0, 10.0));
-  EXPECT_FALSE(is_disturbed(cell)) << "half of the blocks are left";
+  EXPECT_FALSE(is_disturbed(cell)) << "half of the blocks are undisturbed";
   cell.repetitions.push_back(timed(4, 20.0, 10.0));
   EXPECT_TRUE(is_disturbed(cell));
 }
@@ -104,8 +104,8 @@ bool contains(const Interval& interval, double value) {
   return interval.low <= value && value <= interval.high;
 }
 
-/// Returns the shares of runs whose confidence interval contains the true value, and whose
-/// prediction interval contains the value of a second run at `second` times the level.
+/// Returns two shares of runs: those whose confidence interval contains the true value, and those
+/// whose prediction interval contains the value of a second run at `second` times the level.
 std::pair<double, double> coverage(int runs, double second) {
   Random random(7);
   Simulated machine(random);
@@ -127,7 +127,7 @@ TEST(Coverage, OfBothIntervalsIsCorrect) {
   EXPECT_LT(predicted, 0.97);
 }
 
-/// The interval of one run cannot show a drift: the figure is reported, not required.
+/// The intervals of one run cannot reveal a drift, so the coverage is reported but not required.
 TEST(Coverage, FallsIfTheMachineDrifts) {
   const auto [confident, predicted] = coverage(20'000, 1.02);
   RecordProperty("predicted_with_2_percent_drift", std::to_string(predicted));

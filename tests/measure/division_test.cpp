@@ -55,7 +55,7 @@ TEST_P(Divided, EveryCellIsInOneShardAndGroupsAreWhole) {
     const PlannedShard shard = keep_shard(plan, config, {number, GetParam()});
     EXPECT_EQ(shard.facts.cells, plan.cell_count());
     EXPECT_EQ(shard.facts.cells_of_sweep, whole.cell_count());
-    EXPECT_EQ(shard.scenes.size(), 3U) << "those of the other shards, too";
+    EXPECT_EQ(shard.scenes.size(), 3U) << "scenes of the other shards, too";
     const std::vector<std::string> own = cell_names(plan);
     found.insert(own.begin(), own.end());
     for (const CellGroup& group : plan.groups) {
@@ -86,8 +86,8 @@ TEST_P(Divided, TheEstimatedWorkIsEven) {
     sum += keep_shard(plan, config, {number, GetParam()}).share;
   }
   EXPECT_NEAR(sum, 1.0, 1e-9);
-  // The optimum is at least an even share, and at least the largest group; assigning the most
-  // expensive group first is at most a third above it (Graham 1969).
+  // The optimum is at least an even share, and at least the share of the largest group. Assigning
+  // the most expensive group first exceeds the optimum by at most a third (Graham 1969).
   const double group = largest_share(config, static_cast<int>(make_plan(config).groups.size()));
   EXPECT_LE(largest_share(config, GetParam()), 4.0 / 3.0 * std::max(1.0 / GetParam(), group));
 }

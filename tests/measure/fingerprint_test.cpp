@@ -32,7 +32,7 @@ class FingerprintOn : public testing::TestWithParam<std::string> {};
 
 TEST_P(FingerprintOn, IsTheCommittedOne) {
 #ifdef __SANITIZE_ADDRESS__
-  // Unoptimized, it takes minutes.
+  // An unoptimized build takes minutes.
   if (tests::in_full(1, 0) == 0) GTEST_SKIP() << "only with BEAMBENCH_FULL";
 #endif
   try {

@@ -14,7 +14,7 @@
 namespace beambench::measure {
 namespace {
 
-/// Returns a counter that returns these numbers, 8 bytes each, when read.
+/// Returns a file descriptor from which these numbers, 8 bytes each, are read as from a counter.
 int counter_that_tells(const std::vector<std::uint64_t>& numbers) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe(ends.data()), 0);
@@ -46,8 +46,8 @@ TEST(HardwareCounters, ReportWhatWasCountedDuringTheWork) {
   const HardwareCounts counts = counters.count([&] { worked = true; });
   EXPECT_TRUE(worked);
   EXPECT_EQ(counts[0], 250U);
-  EXPECT_EQ(counts[1], 400U) << "it ran a quarter of the time";
-  EXPECT_EQ(counts[2], std::nullopt) << "it never ran";
+  EXPECT_EQ(counts[1], 400U) << "the counter ran a quarter of the time";
+  EXPECT_EQ(counts[2], std::nullopt) << "the counter never ran";
 }
 
 TEST(HardwareCounters, WithoutThemTheWorkIsStillDone) {
@@ -96,7 +96,7 @@ TEST(Noise, IsTheExcessOfTheSlowestTwentieth) {
   std::vector<double> slices(100, 2.0);
   EXPECT_EQ(noise(slices), 0.0);
   for (std::size_t i = 0; i < 3; ++i) slices[10 * i] = 50.0;
-  EXPECT_EQ(noise(slices), 0.0) << "three in a hundred are no twentieth";
+  EXPECT_EQ(noise(slices), 0.0) << "3 of 100 are less than a twentieth";
   for (std::size_t i = 0; i < 8; ++i) slices[10 * i] = 3.0;
   EXPECT_EQ(noise(slices), 0.5);
   slices.resize(39);

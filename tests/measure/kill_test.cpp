@@ -71,7 +71,7 @@ class Process {
   pid_t id_;
 };
 
-/// Returns whether a line of CSV has a field with this value. The JSON may have more digits of it.
+/// Returns whether a line of CSV has a field with this value, however many digits are printed.
 bool has_number(const std::string& line, double number) {
   std::istringstream fields(line);
   for (std::string field; std::getline(fields, field, ',');) {
@@ -324,7 +324,8 @@ class TinyDisk {
   bool mounted_ = false;
 };
 
-/// The data that a full disk could not store, and the number of repetitions at that time.
+/// A size of the disk, named after the data that no longer fits on it, and the minimum and maximum
+/// number of repetitions in the log by then.
 struct FullDisk {
   const char* name;
   const char* size;

@@ -68,13 +68,13 @@ TEST(Statistics, IntervalCoversTheMedianOfASkewedDistribution) {
     covered += interval->low <= true_median && true_median <= interval->high ? 1 : 0;
   }
   EXPECT_GT(covered, kTrials * 94 / 100);
-  EXPECT_LT(covered, kTrials * 99 / 100);  // an interval of everything would be useless
+  EXPECT_LT(covered, kTrials * 99 / 100);  // an unbounded interval would be useless
 }
 
 TEST(Statistics, TheSpreadOfTheMinimumExtendsToTheFifthOfFifteen) {
   std::vector<double> samples{16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 1};
   EXPECT_EQ(repeat_spread_of_minimum(samples), 5.0)
-      << "6 - 1: 2.1% that a further minimum is above";
+      << "6 - 1: another minimum exceeds it with a probability of 2.1%";
   samples.resize(9);
   EXPECT_EQ(repeat_spread_of_minimum(samples), 4.0) << "12 - 8: 1.5%";
   EXPECT_EQ(repeat_spread_of_minimum(std::vector<double>{3, 4, 1, 9}), 8.0) << "1 of 70";
@@ -83,7 +83,7 @@ TEST(Statistics, TheSpreadOfTheMinimumExtendsToTheFifthOfFifteen) {
 }
 
 TEST(Statistics, SpreadOfTheMinimumCoversTheNextMinimum) {
-  // On a machine disturbed in six of ten repetitions, by up to 60%; the others differ by 1%.
+  // The machine disturbs six of ten repetitions, by up to 60%; the others differ by up to 1%.
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto sample = [&] {

@@ -39,7 +39,7 @@ std::vector<PlannedName> plan_of(std::span<const CellRecord> cells) {
   return plan;
 }
 
-/// Returns the cell after this many repetitions.
+/// Returns the cell as it was after this many repetitions.
 CellRecord after(CellRecord cell, std::size_t repetitions) {
   cell.repetitions.resize(repetitions);
   return cell;
@@ -325,7 +325,7 @@ class WrittenLog : public testing::Test {
   std::filesystem::path folder() const { return folder_.path() / "run"; }
   std::filesystem::path file() const { return folder() / kLogName; }
   void write(const std::string& text) const { folder_.write("run/run.jsonl", text); }
-  /// Returns the message that refuses a log with this text.
+  /// Returns the message with which a log with this text is refused.
   std::string refusal(const std::string& text) const {
     write(text);
     return thrown_message([&] { read_run(folder()); });

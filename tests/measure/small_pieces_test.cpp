@@ -61,7 +61,7 @@ TEST(RayKinds, AreReadFromAListWithoutDuplicates) {
   }
 }
 
-/// Returns the output of a progress on a stream that is, or is not, treated as a terminal.
+/// Returns the output of a Progress on a stream that is treated as a terminal if `terminal` is set.
 template <class Work>
 std::string written(bool terminal, Work work) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::tmpfile(), &std::fclose);

@@ -129,7 +129,7 @@ class Sweep : public testing::Test {
   std::filesystem::path results() const { return folder_.path() / "run"; }
   std::string messages() const { return read_text(folder_.path() / "messages"); }
   json read_json(const std::string& name) const { return json::parse(read_text(results() / name)); }
-  /// Each cell by the log, with its row.
+  /// Returns each cell of the log, with its row.
   std::vector<json> all_cells() const {
     const auto run = read_run(results());
     const RunFacts facts = analysis::facts_of(run.manifest);
@@ -158,8 +158,8 @@ class Sweep : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Excludes intervals, which four repetitions do not have. A quick trace may take no longer than
-/// the harness.
+/// Returns whether a column holds a time that every measured cell has. Four repetitions have no
+/// intervals, and the net time is missing if a quick trace takes no longer than the harness.
 bool is_time(const std::string& column) {
   return column.find("_ms_") != std::string::npos && column.find("_ci_") == std::string::npos &&
          column.find("_pi_") == std::string::npos && column != "trace_net_ms_median" &&
@@ -270,7 +270,7 @@ std::uint64_t resident_bytes() {
   return 0;
 }
 
-/// Cells used to take 20 kB or more during the run and as much again at its end.
+/// Each cell once took 20 kB or more during the run, and as much again at its end.
 TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
   json document = config({"null", "exhaustive"});
   document["scenes"] = {"tetra:n=1"};
@@ -286,10 +286,10 @@ TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
   SweepOptions options;
   options.before_each_piece = [&] { resident.push_back(resident_bytes()); };
   EXPECT_EQ(run(document, options).cells, 300U);
-  if (resident.front() == 0) GTEST_SKIP() << "the system does not say how much memory is used";
+  if (resident.front() == 0) GTEST_SKIP() << "the system does not report memory use";
   const std::uint64_t early = resident[resident.size() / 10];
   constexpr std::uint64_t kMax = std::uint64_t{3} << 20U;  // 10 kB for each of the other cells
-  EXPECT_LT(resident.back(), early + kMax) << "as the last cell is measured";
+  EXPECT_LT(resident.back(), early + kMax) << "while the last cell is measured";
   EXPECT_LT(resident_bytes(), early + kMax) << "at the end";
 }
 
@@ -345,7 +345,7 @@ TEST_F(Sweep, BlocksOfAllViewsAreSpreadOverTheRun) {
     EXPECT_EQ(std::set(pass.begin(), pass.end()), all);
     for (std::size_t block = 0; block < pass.size(); block += kEach) {
       const auto own = pass.subspan(block, kEach);
-      EXPECT_EQ(std::set(own.begin(), own.end()).size(), 1U) << "a block is of one view";
+      EXPECT_EQ(std::set(own.begin(), own.end()).size(), 1U) << "a block belongs to one view";
     }
   }
   const json cell = all_cells()[0];
@@ -497,7 +497,8 @@ TEST_F(Sweep, TunedContendersAreMeasuredWithTheirTwoFastestParameterSets) {
   EXPECT_EQ(outcome.failed, 0U);
   EXPECT_EQ(outcome.planned, 3U);
   ASSERT_EQ(outcome.views.size(), 1U);
-  ASSERT_EQ(outcome.views.front().ranked.size(), 1U) << "the faster of two stands for all";
+  ASSERT_EQ(outcome.views.front().ranked.size(), 1U)
+      << "the faster of the two represents all parameter sets";
   const analysis::Standing& shown = outcome.views.front().ranked.front();
   EXPECT_EQ(shown.contender, "samet (best of 4)");
   EXPECT_TRUE(shown.name().starts_with("samet:max_level=") &&
@@ -620,7 +621,7 @@ TEST_F(Sweep, KindsOfRaysThatASceneLacksAreReportedAsRows) {
   EXPECT_TRUE(scenes::says(messages(), {"has no lights"}));
   EXPECT_TRUE(scenes::says(messages(), {"primary/exhaustive: build"}));
 
-  // A record of only these rays also has the rows.
+  // A record with only this kind of rays also has the rows.
   std::filesystem::remove_all(results());
   config["rays"] = {"shadow"};
   EXPECT_EQ(run(config).without_rays, 2U);
@@ -676,7 +677,7 @@ TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
 class Resume : public Sweep {
  protected:
   Resume() {
-    // Correct and counted, unless `fault_` is set.
+    // The traces are counted, and are correct unless `fault_` is set.
     add_faulty([this](const Traced& traced) {
       ++traces_;
       fault_(traced);
@@ -728,7 +729,7 @@ TEST_F(Resume, NoRepetitionNeedsASecondTrace) {
   EXPECT_EQ(traces_, 5);
   EXPECT_TRUE(cells()["faulty"]["row"]["trace_warm_ms_median"].is_null());
   EXPECT_EQ(messages().find("second trace"), std::string::npos);
-  EXPECT_EQ(run(config_, true).cells, 2U) << "what was written is read";
+  EXPECT_EQ(run(config_, true).cells, 2U) << "the written log can be read";
 }
 
 TEST_F(Resume, RepeatsNoFinishedCell) {
@@ -754,7 +755,7 @@ TEST_F(Resume, MeasuresTheMissingCells) {
   write_log(std::span(lines.begin(), second));
   traces_ = 0;
   EXPECT_EQ(run(config_, true).cells, 4U);
-  EXPECT_EQ(traces_, 9) << "those of the second scene alone";
+  EXPECT_EQ(traces_, 9) << "only the traces of the second scene";
   const std::vector<json> after = all_cells();
   ASSERT_EQ(after.size(), 4U);
   EXPECT_EQ(after[0], before[0]);
@@ -780,7 +781,7 @@ int owed_traces(std::span<const std::string> lines, int index) {
 TEST_F(Resume, NoRepetitionInTheLogIsRepeated) {
   run(config_);
   const std::vector<std::string> lines = log();
-  ASSERT_EQ(lines.size(), 17U) << "of each cell: itself, four repetitions, two more";
+  ASSERT_EQ(lines.size(), 17U) << "for each cell: its own line, four repetitions, two other lines";
   const int faulty = json::parse(lines[2]).at("structure") == "faulty" ? 0 : 1;
   for (std::size_t kept = 1; kept <= lines.size(); ++kept) {
     const auto begin = std::span(lines).first(kept);
@@ -811,7 +812,7 @@ TEST_F(Resume, NoRepetitionInTheLogIsRepeated) {
   }
 }
 
-/// Ensures that a contender's repetitions still form rounds with the others'.
+/// The repetitions of all contenders must still form common rounds.
 TEST_F(Resume, RoundsOfAViewContinueAfterTheLastOfAll) {
   run(config_);
   const std::vector<std::string> lines = log();
@@ -843,7 +844,7 @@ TEST_F(Resume, ResultsThatDifferFromBeforeAreAMismatch) {
   expect_times(faulty, false);
 }
 
-/// Otherwise a time with wrong hits would remain.
+/// If it were forgotten, a time of wrong hits would remain.
 TEST_F(Resume, AWrongRepetitionIsNotForgotten) {
   for (const int wrong : {1, 2, 3, 5}) {
     std::filesystem::remove_all(results());

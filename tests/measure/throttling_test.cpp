@@ -1,4 +1,4 @@
-// A CPU quota: its entry in the record of a run, and the resulting warnings.
+// A CPU quota: its entry in the record of a run, and the warnings about it.
 
 #include <algorithm>
 #include <chrono>
@@ -110,7 +110,7 @@ class ThrottledSweep : public testing::Test {
 
   std::filesystem::path folder() const { return system_.root() / "run"; }
   Json manifest() const { return Json::parse(read_text(folder() / "manifest.json")); }
-  /// Returns the periods in the log, which interrupted runs also have.
+  /// Returns the number of throttled periods in the log, which interrupted runs also record.
   int recorded() const {
     return static_cast<int>(
         conditions_of(read_run(folder()).manifest).throttling.value().throttled);

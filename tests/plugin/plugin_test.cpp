@@ -54,7 +54,8 @@ TEST(PluginStamp, TheLayoutIsThatOfAllTypes) {
   EXPECT_EQ((plugin_stamp::layout_of<Small, Large>()), (plugin_stamp::layout_of<Small, Large>()));
 }
 
-// An adapter for the older interface only returned the last hit of a leaf as the closest hit.
+// With the newer interface, an adapter written for the older one returned a leaf's last hit as the
+// closest.
 TEST(Madmann91Adapter, TakesTFromTheHitOrFindsItInTheRay) {
   struct {
     float tmax = 2.0F;
@@ -62,7 +63,7 @@ TEST(Madmann91Adapter, TakesTFromTheHitOrFindsItInTheRay) {
   adapters::end_at(ray, std::tuple(1.5F, 0.25F, 0.5F));
   EXPECT_EQ(ray.tmax, 1.5F);
   adapters::end_at(ray, std::pair(0.25F, 0.5F));
-  EXPECT_EQ(ray.tmax, 1.5F) << "the older version stored it there";
+  EXPECT_EQ(ray.tmax, 1.5F) << "the older version stored t in the ray";
 }
 
 TEST(RequestedPlugins, AreRemovedFromAnywhereOnTheCommandLine) {

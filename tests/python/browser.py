@@ -115,14 +115,14 @@ class Browser:
         return reply["result"].get("value")
 
     def scroll_to(self, selector: str) -> None:
-        """Scrolls to an element: tables sort from when they were seen."""
+        """Scrolls to an element: a table can be sorted once it has been visible."""
         self.evaluate(
             f"document.querySelector({selector!r}).scrollIntoView({{behavior: 'instant'}})"
         )
         self.settle()
 
     def settle(self) -> None:
-        """Waits until a frame was drawn and timers did their work: tables depend on both."""
+        """Waits until a frame has been drawn and timers have run: tables depend on both."""
         waiting = "new Promise(done => requestAnimationFrame(() => setTimeout(done, 50)))"
         self.call("Runtime.evaluate", expression=waiting, awaitPromise=True)
 
@@ -136,22 +136,22 @@ class Browser:
             )
 
     def screenshot(self, file: Path) -> None:
-        """Returns a screenshot of the whole page, whatever its length."""
+        """Writes a screenshot of the whole page, whatever its length."""
         size = self.call("Page.getLayoutMetrics")["cssContentSize"]
         clip = {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1}
         shot = self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True)
         file.write_bytes(base64.b64decode(shot["data"]))
 
     def pdf(self, file: Path) -> None:
-        """Returns the page as printed."""
+        """Writes the page as printed."""
         printed = self.call("Page.printToPDF", preferCSSPageSize=True, printBackground=True)
         file.write_bytes(base64.b64decode(printed["data"]))
 
     @property
     def complaints(self) -> list[str]:
-        """Returns errors and warnings of the page's scripts, and of the browser about the page.
+        """The errors and warnings of the page's scripts, and of the browser about the page.
 
-        Hints of the driver about speed are left out: drawing without a graphics card is slow.
+        The driver's hints about speed are left out: drawing without a graphics card is slow.
         """
         found = []
         for event in self.events:

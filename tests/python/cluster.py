@@ -1,4 +1,4 @@
-"""beambench-cluster as mpirun starts it."""
+"""Starts beambench-cluster with mpirun."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def skip_where_mpirun_starts_one_program_only() -> None:
         pytest.skip("mpirun cannot start two programs")
 
 
-# mpirun waits for the processes of a failed run to end; without the wait, tests of failures take in
-# a third of theirs.
+# mpirun waits for the processes of a failed run to end; without this wait, tests of failures take
+# a third of the time.
 ENVIRONMENT = {**os.environ, **OPEN_MPI, "OMPI_MCA_odls_base_sigkill_timeout": "0"}
 
 

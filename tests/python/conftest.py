@@ -58,7 +58,7 @@ def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def bare_folder(tmp_path: Path) -> Iterator[Path]:
-    """A folder for bare systems; skips the test where none can be made."""
+    """A folder for bare systems; skips the test if this machine cannot make a bare system."""
     if why := why_impossible():
         pytest.skip(why)
     yield tmp_path

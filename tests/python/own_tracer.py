@@ -1,4 +1,4 @@
-"""A ray tracer that reads and writes beambench's files: OBJ RAYS HITS FAULT, in double."""
+"""A ray tracer in double that uses beambench's files; its arguments: OBJ RAYS HITS FAULT."""
 
 import json
 import sys

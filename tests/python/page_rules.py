@@ -1,4 +1,4 @@
-"""Rules for pages of results: rankings have intervals, and pages that are linked say the same."""
+"""Rules for pages of results: rankings have intervals, and linked pages state the same figures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 _NUMBER = r"\d[\d,]*(?:\.\d+)?"
 _INTERVAL = rf"\((?:{_NUMBER} to {_NUMBER}|no interval)\)"
 _SPEED = r"(?:as (?:fast|long|slow)|faster|slower)\b"
-# A factor or a percentage, what stands in parentheses before and behind `times`, and what it means.
+# A factor or percentage, the parentheses before and after `times`, and the words of a ranking.
 _RANKING = re.compile(
     rf"(?P<takes>\btakes? |\btook )?(?P<figure>{_NUMBER}%?)(?P<before> \([^()]*\))?"
     rf"(?: times(?P<behind> \([^()]*\))? {_SPEED}| (?:percent )?(?:faster|slower)\b"
@@ -18,7 +18,7 @@ _RANKING = re.compile(
 )
 _HEADED = re.compile(rf"times {_SPEED}", re.IGNORECASE)
 _UNRANKED = re.compile(r"without (?:an |their )?intervals?|unranked", re.IGNORECASE)
-"""Words that say of figures that they rank nothing."""
+"""Words that mark figures as unranked."""
 _BARE_RATIO = re.compile(rf"[*_†\s]*({_NUMBER})[*_†\s]*")
 _STATED = re.compile(rf"{_NUMBER} \({_NUMBER} to {_NUMBER}\)")
 _LINK = re.compile(r"\]\(([^()#]+)(?:#[^()]*)?\)")
@@ -83,7 +83,7 @@ def blocks(text: str) -> Iterator[Block]:
 def bare_rankings(page: Path) -> Iterator[Fault]:
     """Yields each "N times as fast as" without an interval, in a sentence or a table.
 
-    What a section calls unranked, or without intervals, ranks nothing.
+    Figures that a section calls unranked, or without intervals, are not rankings.
     """
     for block in blocks(page.read_text("utf-8")):
         if _UNRANKED.search(block.lead + " " + block.text):
@@ -105,10 +105,10 @@ def bare_rankings(page: Path) -> Iterator[Fault]:
 
 
 def stated_otherwise(page: Path) -> Iterator[Fault]:
-    """Yields each ratio with an interval that stands beside links to pages without it.
+    """Yields each ratio with an interval that no linked page states with the same digits.
 
-    A table belongs to the links in the paragraphs above it. The page links texts beside it, in
-    which the same figure stands with the same digits.
+    A table is checked against the links in the paragraphs above it, a sentence against the links in
+    its own paragraph. A linked README includes the reports beside it.
     """
     for block in blocks(page.read_text("utf-8")):
         where = block.lead if block.is_table else block.text

@@ -1,4 +1,4 @@
-"""Builds outside projects for the tests as their authors do: with only the package."""
+"""Builds external projects for the tests as their authors do, with only the package."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def installed(prefix: Path) -> Path:
 
 
 def configured(source: Path, folder: Path, package: Path, *options: str) -> set[str]:
-    """Configures the build folder of an outside project. Returns the shared objects to be built."""
+    """Configures an external project's build folder. Returns the shared objects to be built."""
     launcher = shutil.which("ccache")
     speed = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"] if launcher else []
     found = f"-DCMAKE_PREFIX_PATH={package}"
@@ -42,14 +42,14 @@ def configured(source: Path, folder: Path, package: Path, *options: str) -> set[
 
 
 def built(source: Path, folder: Path, package: Path, *options: str) -> Path:
-    """Returns the folder with an outside project's shared objects, built with only the package."""
+    """Returns the folder with an external project's shared objects, built with only the package."""
     configured(source, folder, package, *options)
     run("cmake", "--build", folder)
     return folder
 
 
 def reached_headers(prefix: Path, *names: str) -> set[str]:
-    """Returns these files' installed headers, including indirect ones, and the files themselves."""
+    """Returns these headers and all installed headers that they include, directly or indirectly."""
     reached: set[str] = set()
     waiting = list(names)
     while waiting:

@@ -28,13 +28,13 @@ def beambench(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Com
 
 
 def can_explain() -> bool:
-    """Returns whether the program contains three.js, which scripts/setup fetches where npm is."""
+    """Returns whether the program contains three.js, which scripts/setup fetches if npm exists."""
     words = ["explain", "tetra:n=1", "--accel", "samet", "--resolution", "1x1", "-o", "/dev/null"]
     return "no three.js" not in beambench(*words).stderr
 
 
 def sorts_tables() -> bool:
-    """Returns whether pages contain DataTables, which scripts/setup fetches where npm is."""
+    """Returns whether pages contain DataTables, which scripts/setup fetches if npm exists."""
     return bool(environment().globals["library_scripts"])
 
 

@@ -20,15 +20,15 @@ _POINT = f"{_NUMBER} {_NUMBER}"
 _RECTANGLE = re.compile(f"M{_POINT}L{_POINT}L{_POINT}L{_POINT}z")
 _PAPER = "fill:#ffffff"
 _TICK_BAND, _SLANTED_BAND = 20.0, 48.0
-"""The most points between a panel and its tick labels; slanted ones are taller."""
+"""The maximum distance between a panel and its tick labels, in points; slanted ones are taller."""
 _LABEL_BAND = 75.0
-"""The most points between a panel and the label of its horizontal axis."""
+"""The maximum distance between a panel and the label of its horizontal axis, in points."""
 _BESIDE = 9.0
-"""The most points by which a tick label may be beyond the end of its axis."""
+"""The maximum distance of a tick label beyond the end of its axis, in points."""
 _LEGEND_GAP, _LEGEND_LINE = 30.0, 6.0
-"""The most points between a sample in a legend and its text, along and across the line."""
+"""The maximum distance from a legend's sample to its text, in points, along and across the line."""
 _NEAR = 2.0
-"""The most points by which equal positions may differ."""
+"""The maximum difference between positions that count as equal, in points."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ def _unnamed(root: Element, texts: Sequence[Text], panels: Sequence[Panel]) -> l
 
 
 def _marks(root: Element) -> Iterator[tuple[str, float, float]]:
-    """Returns the color and the right end of each marker and line that is not gray."""
+    """Yields the color and the right end of each marker and line that is not gray."""
     parents = {child: parent for parent in root.iter() for child in parent}
     for element in root.iter():
         if element.tag == f"{_SVG}use":
@@ -157,7 +157,7 @@ def _marks(root: Element) -> Iterator[tuple[str, float, float]]:
 
 
 def texts_of(root: Element) -> Iterator[Text]:
-    """Returns all texts, in the order of the file; the characters of one text are combined."""
+    """Yields all texts, in the order of the file; the characters of one text are combined."""
     parents = {child: parent for parent in root.iter() for child in parent}
     for element in root.iter(f"{_SVG}text"):
         x, y = _place(element)

@@ -27,7 +27,7 @@ Point = tuple[float, float, float]
 
 @dataclass
 class Bsp:
-    """Lumps as lists; `bytes` assembles them like the game's tools."""
+    """The lumps of a map, as lists; `bytes` assembles them as the game's tools do."""
 
     entities: str = ""
     textures: list[tuple[str, int]] = field(default_factory=list)
@@ -81,7 +81,7 @@ def square(x: float) -> list[Point]:
 
 
 def arch(top: float) -> list[Point]:
-    """Returns 3 x 3 control points, a quarter of a pipe; those at y = 0 are always the same."""
+    """Returns 3 x 3 control points of a quarter pipe; points at y = 0 do not depend on `top`."""
     return [
         (x, y, z)
         for y in (0.0, 4.0, 8.0)

@@ -39,7 +39,7 @@ _GRIDS = {
     "ajedrez": {6: 400, 10: 150, 15: 90, 22: 120, 32: 200},
     "habitacion": {32: 300},
 }
-# How much longer single rays take, and the pixels in exit beams: more of these, more gain.
+# How much longer single rays take, and the pixels in exit beams: the gain grows with these pixels.
 _EMPTINESS = {
     "escena1": (1.0, 4e5),
     "stetra": (1.06, 5e5),

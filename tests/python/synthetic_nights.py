@@ -74,7 +74,7 @@ def write_nights(
 def write_night(
     home: Home, night: int, random: np.random.Generator, plant: Plant, *, blocks: int = BLOCKS
 ) -> Path:
-    """Writes one finished run, in blocks or as it was before blocks."""
+    """Writes one finished run, either in blocks or as runs were before blocks."""
     run_id = f"2026{1 + night // 28:02d}{1 + night % 28:02d}T030000Z"
     folder = home.folder / run_id
     folder.mkdir(parents=True)
@@ -116,12 +116,12 @@ def _timed(row: Row, factor: float) -> Row:
 
 
 def is_time(name: str, row: Row) -> bool:
-    """Is this member of the row a time?"""
+    """Returns whether this member of the row is a time."""
     return ("_ms" in name or "_mcycles_" in name) and row[name] != ""
 
 
 def _repetitions(row: Row, noise: np.ndarray) -> list[dict[str, float]]:
-    """Returns one for each block, with the row's time as their geometric mean."""
+    """Returns one repetition per block; the geometric mean of their times is the row's time."""
     parts = [(name, float(row[f"{name}_ms_median"])) for name in ("build", "trace")]
     return [
         {"round": block, "block": block, "position": 0}

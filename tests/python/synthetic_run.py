@@ -36,7 +36,7 @@ EXAMPLE = (
 
 
 def synthetic_rows() -> list[dict[str, object]]:
-    """Returns rows of two scenes, five contenders, three resolutions; time follows rays."""
+    """Returns rows of two scenes, five contenders and three resolutions; times grow with rays."""
     return [
         _row(scene, structure, parameters, width, height)
         for scene in _SCENES
@@ -46,8 +46,7 @@ def synthetic_rows() -> list[dict[str, object]]:
 
 
 def write_run(folder: Path, rows: list[dict[str, object]], without: tuple[str, ...] = ()) -> Path:
-    """Writes rows into FOLDER/results.csv (missing fields stay empty); returns FOLDER."""
-    """Writes rows (fields not given stay empty) and their analysis; returns FOLDER."""
+    """Writes FOLDER/results.csv, with missing fields empty, and the analysis; returns FOLDER."""
     of_blocks = {"trace_ms", "total_ms"} - set(rows[0] if rows else ())
     columns = [name for name in COLUMNS if name not in {*without, *of_blocks}]
     columns += [name for name in rows[0] if name not in COLUMNS] if rows else []
@@ -111,7 +110,7 @@ def write_repeated_cell(
 
 
 def write_manifest(folder: Path, **changes: object) -> None:
-    """Writes a manifest of the kinds of members that beambench writes."""
+    """Writes a manifest with the kinds of members that beambench writes."""
     manifest = {
         "run_id": "20260102T030405Z-abc1234",
         "sweep": "made-up",

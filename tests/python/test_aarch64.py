@@ -23,7 +23,7 @@ def test_help_is_printed_and_other_arguments_are_refused() -> None:
 
 @pytest.mark.full
 def test_the_tests_pass_under_emulation(bare_folder: Path) -> None:
-    """Runs in a separate system, so that this one's apt does not keep a second architecture."""
+    """Runs in a separate system, so that no second architecture is added to this system's apt."""
     system = BareSystem("bookworm", "", bare_folder)
     system.copy_repository("/root/beambench")
     system.run("scripts/aarch64", folder="/root/beambench")

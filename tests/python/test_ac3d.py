@@ -58,7 +58,10 @@ def test_a_file_that_is_cut_off_is_refused_or_lacks_whole_objects() -> None:
         (TRACK.replace("numvert 5", "numvert 6"), "line 21"),
         (TRACK.replace("\n4 0 0", "\n5 0 0"), "line 30: a surface has a corner beyond its 5"),
         (TRACK.replace("SURF 0x34", "SURF 0x37"), "type 7"),
-        (TRACK.replace("kids 1\nOBJECT poly", "kids 1\npoly"), "line 9: an object must stand here"),
+        (
+            TRACK.replace("kids 1\nOBJECT poly", "kids 1\npoly"),
+            "line 9: an object is expected here",
+        ),
         (TRACK.replace("0 0 0 0 1 0", "nan 0 0 0 1 0"), "vertex at (nan"),
         (TRACK.replace("rot 0 0 1", "rot 0 1"), "nine numbers"),
     ],

@@ -79,7 +79,7 @@ def test_several_campaigns_at_once_lose_no_piece(record: Record) -> None:
 def test_a_file_that_is_no_record_is_refused(record: Record) -> None:
     record.folder.mkdir()
     record.file.write_text('{"version": 99}')
-    with pytest.raises(Problem, match="no record of version 1"):
+    with pytest.raises(Problem, match="not a record of version 1"):
         record.pieces()
 
 
@@ -220,7 +220,10 @@ def test_a_planted_fault_is_found_and_kept(
 
 
 def test_an_input_that_was_slow_only_once_is_no_finding(record: Record, tmp_path: Path) -> None:
-    """Uses a program that leaves inputs like libFuzzer, but does not fail when given one again."""
+    """Uses a program that, like libFuzzer, leaves failing inputs behind.
+
+    It does not fail when it is run on one of them again.
+    """
     program = tmp_path / "fuzz_slow"
     program.write_text(
         """#!/bin/sh
@@ -323,7 +326,7 @@ def test_kills_lose_nothing(record: Record, kind: str, monkeypatch: pytest.Monke
 
 
 def faulty_program(folder: Path) -> Path:
-    """Each run ends at once, and has the same cell twice unless it is interrupted."""
+    """Writes a program whose runs end at once; only the undisturbed run has no duplicate cell."""
     path = folder / "beambench"
     path.write_text(
         "#!/bin/sh\n"
@@ -377,8 +380,8 @@ def test_help_names_every_option(
     [
         ([], "name one of fuzz, rays and kills"),
         (["fire"], "invalid choice: 'fire'"),
-        (["rays", "--minutes", "-1"], "'-1' is no number from 0"),
-        (["rays", "--jobs", "0"], "'0' is no whole number from 1"),
+        (["rays", "--minutes", "-1"], "'-1' is not a number from 0"),
+        (["rays", "--jobs", "0"], "'0' is not a whole number of 1"),
         (["rays", "--report", "x"], "name one of"),
     ],
 )

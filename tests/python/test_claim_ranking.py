@@ -48,7 +48,7 @@ def timed(factor: float, noise: float = 0.002, first: int = 0) -> Measured:
     ],
 )
 def test_noise_that_is_common_to_a_block_cancels(larger: Measured, outcome: Outcome) -> None:
-    """The intervals of both times overlap by far, but that of their ratio is narrow."""
+    """The intervals of the two times overlap widely, but the interval of their ratio is narrow."""
     found = below("cell", timed(1), larger)
     assert (found.outcome, found.is_paired) == (outcome, True)
     assert found.ratio == pytest.approx(larger.value / 1.25, rel=2e-3)

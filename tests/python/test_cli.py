@@ -298,7 +298,7 @@ def test_a_renamed_option_works_with_a_warning() -> None:
 
 
 def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
-    """Calls it as the user did: by a path, from another folder, without the program on the PATH."""
+    """Runs beambench as a user did: by its path, from another folder, without it on the PATH."""
     sweep = {
         "name": "s",
         "scenes": ["tetra:n=4"],
@@ -605,7 +605,7 @@ def test_a_census_counts_the_work_of_the_structure() -> None:
     assert one["work"]["traversal_steps"] > one["work"]["leaves"] > one["eye_hits"]
     (glass,) = json.loads(output_of(*("census", "mount:n=2"), *arguments[2:], "--json"))["scenes"]
     of_paths = glass["eye_rays"] + glass["reflected_rays"] + glass["refracted_rays"]
-    assert glass["shadow_queries"] > glass["shadow_rays"], "on behind glass, which is not counted"
+    assert glass["shadow_queries"] > glass["shadow_rays"], "uncounted ones behind glass"
     assert glass["work"]["rays"] == of_paths + glass["shadow_rays"]
     assert one["size"]["nodes"] > one["size"]["leaves"] > one["size"]["empty_leaves"] > 0
 
@@ -1296,7 +1296,7 @@ p 4 550 0 550   0 0 550   0 550 550   550 550 550
 
 
 def test_a_cornell_box_is_not_black(tmp_path: Path) -> None:
-    """Its only light is a rectangle in the ceiling, which is `la` in a dialect of NFF."""
+    """The only light is a rectangle in the ceiling, written as `la` in a dialect of NFF."""
     file = tmp_path / "cornell.nff"
     file.write_text(CORNELL)
     picture = tmp_path / "cornell.png"

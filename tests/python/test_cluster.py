@@ -29,7 +29,7 @@ from program import beambench, output_of
 pytestmark = needs_mpi
 
 SMALL = ["--resolution", "120x90", "--samples", "5"]
-# Long enough to be interrupted: some seconds.
+# Takes some seconds, long enough to be interrupted.
 LONG = ["balls:n=2", "--accel", "beam", "--shade", "whitted", "--depth", "8",
         "--resolution", "480x360", "--samples", "5"]  # fmt: skip
 READY = "beambench-cluster: all consumers are ready"
@@ -37,7 +37,7 @@ READY = "beambench-cluster: all consumers are ready"
 
 @pytest.fixture(scope="module")
 def sequential(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    """The picture by one process of the other program."""
+    """The picture drawn by one process of `beambench render`."""
     file = tmp_path_factory.mktemp("sequential") / "balls.png"
     output_of("render", "balls:n=2", "--accel", "beam", "-o", file, "--shade", "whitted", *SMALL)
     return file.read_bytes()
@@ -114,8 +114,8 @@ def test_the_record_adds_up(tmp_path: Path) -> None:
         own = [row for row in tasks if int(row["process"]) == process["process"]]
         assert process["tasks"] == len(own)
         assert process["samples"] == sum(int(row["samples"]) for row in own)
-    # Each task is a message out and one back; each consumer receives an end and sends ready and
-    # farewell.
+    # Each task takes one message out and one back. In addition, each consumer receives an end
+    # message, and sends a ready message and a farewell.
     assert report["from_producer"]["messages"] == len(tasks) + 2
     assert report["to_producer"]["messages"] == len(tasks) + 4
     assert 0.0 < report["producer_busy_share"] < 1.0
@@ -156,7 +156,7 @@ def test_the_same_tasks_whoever_does_them(tmp_path: Path) -> None:
 
 
 def consumer_at_work(run: subprocess.Popen[str], process: int) -> int:
-    """Returns the pid of a consumer, once all of them have joined and received tasks."""
+    """Returns the pid of a consumer, once all consumers have joined and received tasks."""
     assert run.stderr is not None
     for line in run.stderr:
         if line.strip() == READY:
@@ -237,7 +237,7 @@ def test_a_killed_run_is_resumed_with_the_same_picture(
     pids = {"consumer": consumer, "producer": producer, "mpirun": run.pid}
     os.kill(pids[victim], signal.SIGKILL)
     finish_aborted(run)
-    # Each may outlive mpirun for a moment, and the producer locks the folder of results.
+    # Both processes may outlive mpirun for a moment, and the producer locks the folder of results.
     wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in (producer, consumer)))
     assert not file.exists()
     other = ["balls:n=1", *asked[1:]]
@@ -274,8 +274,8 @@ def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
     run = start("-n", 3, CLUSTER, *LONG, "-o", several, "--timeout", "2")
     os.kill(consumer_at_work(run, 2), signal.SIGSTOP)
     done = finish_aborted(run)
-    # On a busy machine the process may be stopped after its work is done, when only MPI has not
-    # ended.
+    # On a busy machine the process may be stopped only after its work is done, while MPI shuts
+    # down.
     if "did not end within 2 s" not in done.stderr:
         assert done.returncode in (0, *MPIRUN_FAULTS), done.stderr
         assert "process 2 was silent for 2 s" in done.stderr
@@ -284,7 +284,7 @@ def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
 
 
 def when_begun(run: subprocess.Popen[str], process: int) -> int:
-    """Returns the pid of a process as soon as it exists: MPI has hardly started."""
+    """Returns the pid of a process as soon as it exists, when MPI has hardly started."""
     while run.poll() is None:
         if process in (found := processes_of(run)):
             return found[process]
@@ -369,7 +369,7 @@ def test_wrong_requests_are_refused_in_one_sentence(arguments: list[str], words:
 
 
 def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
-    """Reads the same name in two folders."""
+    """Two processes read a scene with the same name from different folders."""
     skip_where_mpirun_starts_one_program_only()
     file = tmp_path / "picture.png"
     for folder, size in (("a", 1), ("b", 2)):
@@ -387,7 +387,7 @@ def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
 
 
 def test_another_version_on_one_process_is_refused(tmp_path: Path) -> None:
-    """Runs the same program, built from a commit that does not exist."""
+    """Runs the same program, but one copy states a commit that does not exist."""
     skip_where_mpirun_starts_one_program_only()
     report = tmp_path / "run.json"
     assert mpirun("-n", 1, CLUSTER, "tetra:n=1", "--report", report).returncode == 0

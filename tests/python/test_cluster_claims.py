@@ -18,7 +18,7 @@ from beambench_thesis.paper.evidence import FIGURES, NOTHING, ClusterEvidence, E
 CLAIMS = {claim.name: claim for claim in CLUSTER_CLAIMS}
 CAT, TOWER = "gato-bill", "torre-eiffel"
 
-# With these, every claim holds.
+# Figures with which every claim holds.
 HOLDING = {
     CAT: {
         "best_processors": 11,
@@ -167,7 +167,7 @@ def answer(scene: str, consumers: int, seconds: float, busy: float, **more: obje
 
 
 def test_figures_come_from_the_simulations(tmp_path: Path) -> None:
-    # Efficiency 100 / (p T): best with 5 processors, where 20 = T.
+    # The efficiency is 100 / (p T). It is best with 5 processors, where T = 20.
     answers = [
         answer(CAT, n, 100 / ((n + 1) * (0.9 - 0.05 * abs(n - 4))), 0.06 * n) for n in range(1, 15)
     ]

@@ -248,7 +248,7 @@ def test_the_plan_asks_nothing_twice() -> None:
 
 
 def recorded_tasks(folder: Path) -> None:
-    """The files that `cluster record` writes."""
+    """Writes the files that `cluster record` writes."""
     (folder / "tasks").mkdir()
     recorded = {}
     for scene in (*SCENES, LARGE):
@@ -264,7 +264,7 @@ def recorded_tasks(folder: Path) -> None:
 
 
 def counting_simulator(folder: Path) -> tuple[Path, Path]:
-    """A program that always returns the same result, and a file with a line for each call."""
+    """Writes a program with a fixed result; returns it, and a file with a line for each call."""
     zeros = dict.fromkeys(
         "tasks traced_seconds build_seconds walk_seconds work_seconds accept_seconds producer_busy "
         "messages_from_producer bytes_from_producer messages_to_producer bytes_to_producer".split(),
@@ -316,7 +316,7 @@ def test_figures_6_3_and_6_4_name_each_panel_and_show_the_thesis(repository: Pat
     panels = plots["figure-6.3"].axes
     assert [panel.get_title(loc="left") or panel.get_title() for panel in panels] == [
         "a) Time",
-        "b) Speed-up",
+        "b) Speedup",
         "c) Efficiency",
         "d) Efficiency, the producer not counted",
     ]
@@ -338,7 +338,7 @@ def test_figures_6_3_and_6_4_name_each_panel_and_show_the_thesis(repository: Pat
 
 
 def test_a_line_of_many_processes_has_one_network() -> None:
-    """Two networks have different speed-ups for the same size: a common line would zigzag."""
+    """Two networks have different speedups for the same size: a common line would zigzag."""
     rows = [
         {"scene": "s", "era": "1999", "options": options, "machines": "equal", "network": network,
          "consumers": consumers, "speed_up": speed_up, "producer_busy": 0.5}

@@ -116,9 +116,9 @@ def test_its_light_is_that_of_one_process(tmp_path: Path, scene: str) -> None:
         lights = [each["light"] for each in record["each"]]
         assert sum(light["rays_out"] for light in lights) > 0
         assert record["rays"]["shadow"] > 0
-        # The whole scene is on process 0 alone, once.
+        # Only process 0 has the whole scene, once.
         assert record["shading_bytes"] == record["whole_scene_bytes"]
-        # Rays were sent and received, and results of 12 bytes.
+        # Rays were sent and received, and so were results of 12 bytes each.
         received = sum(light["rays_in"]["bytes"] for light in lights)
         answered = sum(light["answers_out"] for light in lights)
         assert sum(light["out"]["bytes"] for light in lights) == received + 12 * answered
@@ -249,5 +249,5 @@ def assert_divisions_are_compared(folder: Path) -> None:
 
 def test_another_picture_is_a_fault(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert divide(tmp_path, pretended_simulator(tmp_path, wrong_picture_of=4)) == 2
-    assert "gato-bill in 4 parts is another picture" in capsys.readouterr().err
+    assert "gato-bill in 4 parts is a different picture" in capsys.readouterr().err
     assert read_split(tmp_path) is None

@@ -136,7 +136,7 @@ def test_wrong_requests_are_one_sentence(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert sheet(tmp_path / "sheet.jpg", "tetra") == 2
-    assert "a contact sheet is a .png" in capsys.readouterr().err
+    assert "a contact sheet must be a .png file" in capsys.readouterr().err
     assert sheet(tmp_path / "nowhere/sheet.png", "tetra") == 2
     assert "there is no folder" in capsys.readouterr().err
     assert sheet(tmp_path / "sheet.png", "tetra", program=tmp_path / "beambench") == 2

@@ -18,7 +18,7 @@ from plugins import SOURCES, built, call
 from program import refused
 
 PYTHON = SOURCES / "python/mine.py"
-# NumPy's Python first, as an activated environment has it.
+# The Python with NumPy comes first on the PATH, as in an activated environment.
 WITH_NUMPY = {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
 SMALL = ("--resolution", "24x18", "--rays", "primary,shadow,random")
 
@@ -210,7 +210,7 @@ def test_the_table_of_times_marks_those_of_a_program() -> None:
 
 
 def test_times_of_a_program_are_its_own(tmp_path: Path) -> None:
-    """Sleeps longer than it reports, and every ray misses, as in this picture."""
+    """The program sleeps longer than it reports. All rays miss, as is correct for this view."""
     file = program(
         tmp_path,
         """\

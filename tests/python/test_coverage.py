@@ -1,4 +1,4 @@
-"""Whether prediction intervals hold for a second run, in both directions, and the script."""
+"""The coverage of a second run by prediction intervals, in both directions, and its script."""
 
 import json
 import subprocess

@@ -42,7 +42,8 @@ def test_help_names_every_command_that_others_rely_on() -> None:
     assert wanted <= set(COMMANDS)
 
 
-# Their examples measure, draw large pictures or verify whole images, for up to half a minute.
+# The examples of these commands measure, draw large pictures or verify whole images, and take up to
+# half a minute.
 SLOW = {"time", "render", "report", "sampling", "verify", "census", "fingerprint"}
 
 
@@ -202,7 +203,7 @@ def test_install_brings_the_manual_and_the_completions(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     picture = ["render", "tetra:n=1", "--resolution", "8x8", "-o", tmp_path / "a.png"]
     subprocess.run([tmp_path / "bin/beambench", *picture], check=True, timeout=60)
-    assert (tmp_path / "a.png").exists(), "what writes pictures is installed beside the program"
+    assert (tmp_path / "a.png").exists(), "the image encoder is installed beside the program"
     share = tmp_path / "share"
     assert (share / "man/man1/beambench.1").read_text() == output_of("man")
     scripts = {

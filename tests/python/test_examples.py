@@ -54,7 +54,7 @@ def trimesh_folder() -> Path:
 
 @cache
 def cgal_program() -> Path:
-    """The example with CGAL, built once; skips the test without CGAL."""
+    """Returns the CGAL example, which is built once. Skips the test if CGAL is not installed."""
     folder = CACHE / "cgal"
     launcher = shutil.which("ccache")
     speed = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"] if launcher else []
@@ -70,7 +70,7 @@ def cgal_program() -> Path:
 
 @pytest.fixture(scope="module", params=["trimesh", "cgal-cartesian", "cgal-epick"])
 def program(request: pytest.FixtureRequest) -> Program:
-    """Calls the program with a mesh, rays, -o and hits."""
+    """A function that calls the program with the given arguments: a mesh, rays, -o and hits."""
     if request.param == "trimesh":
         folder = str(trimesh_folder())
         script = EXAMPLES / "trimesh_hits.py"
@@ -89,7 +89,7 @@ def mesh(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def random_hits(program: Program, mesh: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Returns the hits that the program wrote for random rays, and the rays."""
+    """The hits that the program wrote for random rays, which are in a file beside the hits."""
     rays = make_rays(tmp_path_factory.mktemp("random") / "r.rays", "random")
     return traced(program, mesh, rays)
 
@@ -100,7 +100,7 @@ def make_rays(path: Path, kind: str = "random") -> Path:
 
 
 def traced(program: Program, mesh: Path, rays: Path) -> Path:
-    """The file of hits written by the program."""
+    """Returns the hit file that the program wrote."""
     hits = rays.with_suffix(".hits")
     done = program(mesh, rays, "-o", hits)
     assert done.returncode == 0, done.stderr

@@ -29,8 +29,8 @@ SCENES = {
     "beside a ring": VIEW.format(eye="-3 0.4 0.2", at="0 0 0") + "c\n0 0 0 1\n1e-30 0 0 2\n",
 }
 TOO_COARSE = {("on a sphere", "embree")}
-"""Hits at the origin of the coordinates, where floats are finer than Embree's arithmetic: its t
-of 1e-8 in place of 0 is wrong by more than K u of the ray and the hit."""
+"""Places with hits at the coordinate origin, where floats are finer than Embree's arithmetic: its
+t of 1e-8 instead of 0 is wrong by more than the ray's and the hit's K u."""
 
 
 @pytest.mark.parametrize("place", SCENES)

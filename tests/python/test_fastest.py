@@ -31,7 +31,7 @@ def test_of_ten_repetitions_the_five_fastest_count() -> None:
 
 
 def test_a_clock_that_was_read_in_a_disturbed_moment_makes_no_repetition_cheaper() -> None:
-    """A third of the readings shows two gigahertz instead of three."""
+    """A third of the clock readings show 2 GHz instead of 3."""
     quiet = [(100.0, 3.0), (101.0, 2.0), (102.0, 3.0), (103.0, 3.0), (104.0, 2.0), (105.0, 3.0)]
     found = fastest_of([repeated(*quiet)])
     assert found is not None
@@ -68,7 +68,7 @@ def test_the_repetitions_of_several_runs_count_together() -> None:
 
 @pytest.mark.parametrize("repetitions", [6, 10, 20])
 def test_a_further_run_lies_within_the_error_in_nine_of_ten_cases(repetitions: int) -> None:
-    """A third of the repetitions is disturbed, and one in ten clock readings."""
+    """A third of the repetitions and a tenth of the clock readings are disturbed."""
     random = Random(1999)
 
     def repetition() -> tuple[float, float]:

@@ -44,7 +44,7 @@ def series(contender: str, rebuild_after: int | None, totals: tuple[float, ...])
 
 @pytest.fixture
 def moving(tmp_path: Path) -> Path:
-    """A run of three frames of a scene: two structures both ways, and a grid."""
+    """A run of three frames of a scene: two structures, rebuilt and updated, and a grid."""
     base = next(row for row in synthetic_rows() if row["structure"] == "samet")
     rows = []
     for frame in FRAMES:

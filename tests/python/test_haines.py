@@ -14,7 +14,7 @@ COMMITTED = ROOT / "results/published/haines"
 
 
 def a_census(scene: str, contender: str) -> str:
-    """Returns output like that of `beambench census --count --json`, with half of his tests."""
+    """Returns output like `beambench census --count --json`, with half of Haines's tests."""
     work = {f"{kind}_tests": published_tests()[scene][kind] / 2 for kind in KINDS}
     return json.dumps({"structure": contender, "scenes": [{"work": work}]})
 

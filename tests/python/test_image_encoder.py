@@ -26,7 +26,7 @@ def render(program: Path, picture: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_the_program_alone_does_not_load_openimageio() -> None:
-    """It needs over two hundred shared libraries, which made every start take 20 times as long."""
+    """OpenImageIO needs over 200 shared libraries, which made each start take 20 times as long."""
     listed = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
     assert "libembree" in listed
     assert "libOpenImageIO" not in listed

@@ -75,7 +75,7 @@ def flat(row: Row, samples: int) -> Row:
 
 
 def work(quantity: str, factor: float | None) -> Callable[[Row], Row]:
-    """Multiplies a quantity of the beams' work by a factor, by default the resolution's."""
+    """Multiplies a quantity of the beams' work by a factor, or by the number of rays if None."""
 
     def change(row: Row) -> Row:
         if row.get("quantity") != quantity or row["contender"] not in ("beam", PICTURE):
@@ -139,7 +139,7 @@ def scene(*names: str) -> Only:
 
 @dataclass(frozen=True)
 class Spoiling:
-    """A change that contradicts a claim, and the rows for which the verdict is then mixed."""
+    """A change that contradicts a claim; for the rows `part` alone, it makes the verdict mixed."""
 
     fails: Callable[[Row], Row]
     part: Only

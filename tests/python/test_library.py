@@ -63,7 +63,7 @@ def test_one_wrong_hit_is_found_and_described(example: Path, fault: str, reporte
 def test_the_build_folder_gives_the_same(prefix: Path, example: Path, tmp_path: Path) -> None:
     del prefix  # the fixture skips the test without an installation
     configured(EXAMPLE, tmp_path, BUILD)
-    other = built(EXAMPLE, tmp_path, BUILD) / "my_tracer_hits"  # configured twice: from its cache
+    other = built(EXAMPLE, tmp_path, BUILD) / "my_tracer_hits"  # configured again, from the cache
     assert output_of(other, code=0) == output_of(example, code=0)
     assert output_of(other, "moved", code=1) == output_of(example, "moved", code=1)
 

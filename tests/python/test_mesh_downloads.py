@@ -16,7 +16,7 @@ from beambench_meshes.downloads import DOWNLOADS, Version
 from beambench_meshes.problem import Problem
 from program import BINARY, beambench
 
-# Like Crytek's: a library beside it, groups, quads with texture coordinates, centimeters, y up.
+# Like Crytek's file: a material library, groups, quads with texture coordinates, centimeters, y up.
 SPONZA = """# The atrium, cut down to a floor and a wall
 mtllib sponza.mtl
 g floor
@@ -65,7 +65,8 @@ def test_a_download_is_registered_where_it_lies(repository: Path, folder: Path) 
     checksum = hashlib.sha256(SPONZA.encode()).hexdigest()
     assert f"== {file}: 4 triangles, SHA-256 {checksum}\n" in done.stdout
     assert (
-        "No published version has as many; known are 262,267 (Crytek's), or 66,450" in done.stdout
+        "No published version has as many triangles: there are 262,267 (Crytek's), or 66,450"
+        in done.stdout
     )
     assert done.stdout.endswith("== mesh:sponza has 4 triangles\n")
     entry = json.loads((folder.parent / "cache/registered/sponza.json").read_text())
@@ -77,9 +78,7 @@ def test_a_download_is_registered_where_it_lies(repository: Path, folder: Path) 
     file.write_text(SPONZA.replace("1400", "1300"))
     again = register(repository, folder)
     assert again.returncode == 0
-    assert (
-        f"is not the file that it was when it was registered (SHA-256 {checksum})" in again.stdout
-    )
+    assert f"has changed since it was registered (SHA-256 {checksum})" in again.stdout
 
 
 def known(version: Version) -> downloaded.Download:
@@ -128,9 +127,9 @@ def test_checksums_and_rounded_counts_are_compared(
 ) -> None:
     checksum = hashlib.sha256(SPONZA.encode()).hexdigest()
     registered(folder, Version(4, "this one", sha256=checksum))
-    assert "and the SHA-256 is the printed one" in capsys.readouterr().out
+    assert "and the SHA-256 is the published one" in capsys.readouterr().out
     registered(folder, Version(4, "this one", sha256="0" * 64))
-    assert "but another SHA-256 than the printed one" in capsys.readouterr().out
+    assert "but the SHA-256 is not the published one" in capsys.readouterr().out
     registered(folder, Version(6, "that of papers", within=2))
     assert "As many triangles as that of papers has" in capsys.readouterr().out
     registered(folder, Version(7, "that of papers", within=2))

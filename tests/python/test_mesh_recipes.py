@@ -141,15 +141,15 @@ def test_another_file_or_another_count_is_said_and_registered(
     source = Source("all.pk3", "0" * 64, "maps/small.bsp")
     assert Registry(cache, BINARY).register(level(sources=(source,), triangles=9))
     said = capfd.readouterr().out
-    assert "all.pk3, maps/small.bsp of maps is not the file that it was (SHA-256 " in said
-    assert ", not 9: the package holds another mesh than it did\n" in said
+    assert "all.pk3, maps/small.bsp of maps has changed (SHA-256 " in said
+    assert ", not 9: the mesh in the package has changed\n" in said
 
 
 @pytest.mark.parametrize(
     ("source", "why"),
     [
         (Source("none.pk3", "", "maps/small.bsp"), "there is no "),
-        (Source("all.pk3", "", "maps/none.bsp"), "it holds no maps/none.bsp"),
+        (Source("all.pk3", "", "maps/none.bsp"), "it has no maps/none.bsp"),
         (Source("all.pk3", "", "maps/cut.bsp"), "it ends within lump"),
         (Source("track.acc", "", "maps/small.bsp"), "it cannot be read"),
     ],
@@ -168,7 +168,6 @@ def test_what_cannot_be_converted_is_named_and_not_registered(
 def test_a_package_that_cannot_be_unpacked_is_not_there(tmp_path: Path) -> None:
     package = Package("none", "Debian", 1, "", "", unpacked=("data.tar.gz", ("a.off",)))
     packages = Packages(tmp_path)
-    packages._debian = lambda *_: True  # type: ignore[method-assign] # without using the Debian
-    # archive
+    packages._debian = lambda *_: True  # type: ignore[method-assign] # no Debian archive
     packages.fetch(package)
     assert list(tmp_path.iterdir()) == []

@@ -312,7 +312,7 @@ def test_results_own_their_memory(balls: bb.Scene, rays: NDArray[np.float32]) ->
     del hits, structure
     gc.collect()
     assert np.array_equal(kept, expected)
-    kept[:] = 0  # the hits of one call belong to nobody else
+    kept[:] = 0  # each call returns hits in memory of its own
     assert ids.max() > 0
 
 
@@ -476,7 +476,7 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
     "a structure that is not Unicode": (
         lambda: bb.Structure(plane(), "\udcff"),
         bb.InputError,
-        r"spec is '\\udcff'; expected a text that UTF-8 can hold",
+        r"spec is '\\udcff'; expected a string that UTF-8 can encode",
     ),
     "a file name that no file has": (
         lambda: bb.Scene("\ud800.nff"),
@@ -486,7 +486,7 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
     "a number as a scene": (
         lambda: bb.Scene(3),
         TypeError,
-        r"spec is 3; expected a text or a path",
+        r"spec is 3; expected a string or a path",
     ),
     "an unknown kind of rays": (lambda: plane().rays("light"), bb.InputError, r"'light'"),
     "an unknown structure": (lambda: bb.Structure(plane(), "same"), bb.InputError, r"samet"),

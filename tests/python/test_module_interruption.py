@@ -100,7 +100,7 @@ def test_an_interrupt_ends_long_work(what: str) -> None:
         ended = time.perf_counter() - sent
         assert process.stderr.read() == ""
     assert waited < 5
-    assert ended < 15, "what nobody waits for is cut off"
+    assert ended < 15, "work without a waiting caller is cut off"
 
 
 def test_an_interrupt_that_nobody_catches_ends_the_program_as_usual() -> None:
@@ -175,5 +175,5 @@ def test_an_interrupted_sweep_goes_on_where_it_stopped(tmp_path: Path) -> None:
     assert len(frame) == 20
     found = [event for event in events(tmp_path / "run") if event["event"] == "repetition"]
     assert found[: len(kept)] == kept
-    # A repetition that others disturbed is made again in its round.
+    # A repetition that other processes disturbed is repeated in its round.
     assert len({(event["index"], event["round"]) for event in found}) == 20 * 40

@@ -1,4 +1,4 @@
-"""The Python module: the verdict on the hits of any program, and sweeps."""
+"""Tests of the Python module: verifying the hits of any program, and running sweeps."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from module import bb
 Arrays = dict[str, NDArray]
 
 SIZE = 20  # squares along each side of the mesh, each of two triangles
-K_U = 16 * 2.0**-24 * (SIZE + 3)  # lower bound; the sum: largest coordinate, distance
+K_U = 16 * 2.0**-24 * (SIZE + 3)  # a lower bound; the sum is largest coordinate + distance
 
 
 def mesh() -> bb.Scene:
-    """Squares in the plane z = 0."""
+    """Returns a mesh of squares in the plane z = 0."""
     x, y = np.meshgrid(np.arange(SIZE + 1), np.arange(SIZE + 1), indexing="ij")
     vertices = np.stack([x, y, np.zeros_like(x)], axis=-1).reshape(-1, 3)
     i, j = (a.ravel() for a in np.meshgrid(np.arange(SIZE), np.arange(SIZE), indexing="ij"))
@@ -48,7 +48,7 @@ HIT = HITS.hit
 
 
 def claimed(form: str) -> Arrays:
-    """Correct claims, new arrays each time."""
+    """Returns correct claims, in new arrays each time."""
     point = np.full((len(RAYS), 3), np.inf, np.float32)
     point[HIT] = RAYS[HIT, 0:3] + HITS.t[HIT, None] * RAYS[HIT, 4:7]
     every = {
@@ -66,7 +66,7 @@ ALL = [*CLOSEST, "occluded"]
 
 
 def move(claims: Arrays) -> None:
-    """Moves a hit by ten units of the differ, along the ray."""
+    """Moves a hit along the ray by ten units of the differ."""
     if "t" in claims:
         claims["t"][WRONG] += 10 * K_U
     else:
@@ -97,7 +97,7 @@ def leave_out(claims: Arrays) -> None:
 
 
 def invent(claims: Arrays) -> None:
-    """Invents a hit where there is none."""
+    """Claims a hit for a ray that misses."""
     miss = int(np.argmin(HIT))
     for name, array in claims.items():
         array[miss] = {"t": 2, "point": RAYS[miss, 0:3], "occluded": True}.get(name, 5)

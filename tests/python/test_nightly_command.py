@@ -69,7 +69,7 @@ def sweep(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def without_pages(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leaves the page of each run empty: its plot takes longer to draw than a night to measure."""
+    """Leaves each run's page empty: its plot takes longer to draw than the night to measure."""
     monkeypatch.setattr(write, "render", lambda *_, **__: "")
 
 
@@ -223,14 +223,14 @@ def test_turns_of_noise_tell_nothing(tmp_path: Path) -> None:
     assert outcome.verdict().startswith("No cell is slower by more than 1%")
     assert "not ruled out" in outcome.verdict()
     assert outcome.table().splitlines()[-1].endswith("all cells together")
-    with pytest.raises(Problem, match="6 or more of each; these are 5 and 5"):
+    with pytest.raises(Problem, match="6 or more of each, not 5 and 5"):
         compare_turns(first[:5], second[:5])
 
 
 def test_turns_before_blocks_are_compared_with_none_in_blocks(tmp_path: Path) -> None:
     old = write_nights(Home(tmp_path / "a"), 6, nothing, seed=1, old=6)
     new = write_nights(Home(tmp_path / "b"), 6, nothing, seed=2)
-    with pytest.raises(Problem, match=r"a/\S+: was measured by a program from before blocks"):
+    with pytest.raises(Problem, match=r"a/\S+: was measured by a program that does not"):
         compare_turns(old, new)
     assert compare_turns(old, old).slower == []
 
@@ -325,7 +325,7 @@ def test_one_id_and_two_processors_are_two_machines(tmp_path: Path) -> None:
     [b] = write_nights(Home(tmp_path / "b"), 1, nothing)
     assert diff(a, b).warning == ""
     processor(a, "Xeon")
-    assert diff(a, b).warning == "", "the other's processor is not known"
+    assert diff(a, b).warning == "", "the processor of the other file is unknown"
     processor(b, "EPYC")
     assert "0123456789abcdef (Xeon), B of 0123456789abcdef (EPYC)" in diff(a, b).warning
     processor(b, "Xeon")
@@ -347,7 +347,7 @@ def test_without_embree_another_common_contender_is_the_reference(tmp_path: Path
 def test_diff_warns_of_a_file_from_before_blocks(tmp_path: Path) -> None:
     [a] = write_nights(Home(tmp_path / "a"), 1, nothing, old=1)
     [b] = write_nights(Home(tmp_path / "b"), 1, nothing)
-    assert diff(a, b).warning.startswith("WARNING: one file is from before blocks.")
+    assert diff(a, b).warning.startswith("WARNING: one file was not measured in blocks.")
 
 
 def test_diff_refuses_what_it_cannot_read(tmp_path: Path) -> None:

@@ -80,7 +80,7 @@ def test_a_file_that_is_no_history_is_refused_with_the_remedy(home: Home) -> Non
     home.history.unlink()
     with sqlite3.connect(home.history) as base:
         base.execute("CREATE TABLE others (id)")
-    with pytest.raises(Problem, match="no history of nightly runs"):
+    with pytest.raises(Problem, match="not a history of nightly runs"):
         History(home.history)
 
 

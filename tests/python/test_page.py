@@ -76,7 +76,7 @@ def text_of(folder: Path) -> str:
 
 
 def links_of(reader: Reader) -> set[str]:
-    """Returns the links within the page; a script opens those of single cells."""
+    """Returns the links within the page; links to single cells are opened by a script."""
     here = {at[1:] for at in reader.addresses if at.startswith("#")}
     return {place for place in here if not place.startswith("cell-")}
 
@@ -128,7 +128,7 @@ def test_an_embree_that_is_the_next_has_its_figures_once(tmp_path: Path) -> None
         row["trace_ms_ci_high"] = 1.01 * row["trace_ms_median"]
     text = text_of(write_run(tmp_path, rows))
     assert re.search(r"embree 6\.00 \S+ to \S+ not paired the same", text)
-    assert "6 times as fast as the next (embree, Embree's best)" in text
+    assert "6x faster than the next (embree, Embree's best)" in text
     assert "Embree's best (embree) takes" not in text
 
 
@@ -164,12 +164,12 @@ def test_references_are_counted_apart_and_explained(tmp_path: Path) -> None:
     assert "3 contenders 2 references (exhaustive, null)" in text
     assert (
         "References do not compete: null makes every ray one by one and finds nothing; "
-        "exhaustive tests every primitive with every ray. The time of null is no lower limit for "
-        "samet, whose own samples take the place of these rays (query path image-own), or for "
+        "exhaustive tests every primitive with every ray. The time of null is not a lower limit "
+        "for samet, whose own samples replace these rays (query path image-own), or for "
         "embree, whose rays are made in packets by SIMD."
     ) in text
     alike = [{**row, "query_path": "image-single"} for row in rows]
-    assert "no lower limit" not in text_of(write_run(tmp_path, alike))
+    assert "not a lower limit" not in text_of(write_run(tmp_path, alike))
     without = [row for row in alike if row["structure"] not in ("null", "exhaustive")]
     text = text_of(write_run(tmp_path, without))
     assert "References do not compete" not in text
@@ -230,7 +230,7 @@ def test_times_that_are_worth_little_say_why(run_folder: Path) -> None:
         run_folder, measurement={"noise": 0.31}, machine={"cpu": "x", "load_average": 3.5}
     )
     text = text_of(run_folder)
-    assert "The times are to be taken with care" in text
+    assert "Take the times with care" in text
     assert "Equal work took up to 31% longer than usual" in text
     assert "Other work was running (load 3.50)" in text
 
@@ -239,7 +239,7 @@ def test_times_of_a_throttled_run_say_so(run_folder: Path) -> None:
     counts = {"periods": 14, "throttled_periods": 12, "throttled_seconds": 0.96}
     write_manifest(run_folder, measurement={"noise": 0.01, "throttling": counts})
     text = text_of(run_folder)
-    assert "The times are to be taken with care" in text
+    assert "Take the times with care" in text
     assert "The kernel throttled the process in 12 of 14 periods of its CPU quota" in text
     for harmless in (counts | {"throttled_periods": 0}, None):
         write_manifest(run_folder, measurement={"noise": 0.01, "throttling": harmless})
@@ -298,7 +298,7 @@ def test_what_is_not_there_is_left_out(run_folder: Path) -> None:
     for words in (
         "There is no manifest.json",
         "There is no config.json",
-        "The repetitions of the cells are not in this folder: ratios are of medians",
+        "The repetitions of the cells are not in this folder: ratios compare medians",
         "There is no figure 'distributions'; it needs repetitions",
         "The record has no 95% confidence intervals of the trace times",
         "There are no pictures of the scenes",
@@ -330,7 +330,7 @@ def test_a_folder_without_plots_has_the_same_figures_as_one_with_them(run_folder
 def test_plots_that_are_not_all_there_are_drawn_on_the_page(
     full_run: Path, tmp_path: Path, left: str
 ) -> None:
-    """One kind of drawn pictures suffices: it differs from the nine of the folder."""
+    """One drawn kind of figure suffices: the plots of the folder would be nine figures."""
     run = shutil.copytree(full_run, tmp_path / "run")
     index = run / "plots/index.json"
     assert figures_on(render(read_run(run))) == 9
@@ -361,7 +361,7 @@ def test_of_a_folder_with_intervals_but_no_repetitions_the_page_has_intervals(
     assert (
         "95% confidence interval of the first trace" in text
     )  # below the figures of the trace times
-    assert "95% confidence interval of measuring" in text
+    assert "95% confidence interval of the measurement" in text
 
 
 def test_repetitions_of_some_cells_only_are_counted(run_folder: Path) -> None:
@@ -373,7 +373,7 @@ def test_repetitions_of_some_cells_only_are_counted(run_folder: Path) -> None:
 
 def test_why_cells_were_wrong_is_missed_where_the_folder_does_not_say(tmp_path: Path) -> None:
     rows = [without_times(row, "mismatch") for row in synthetic_rows()[:3]] + synthetic_rows()[3:]
-    assert "Why cells were wrong is not in this folder" in text_of(write_run(tmp_path, rows))
+    assert "This folder does not state why cells were wrong" in text_of(write_run(tmp_path, rows))
 
 
 def test_a_machine_that_nothing_is_known_of_was_not_quiet(run_folder: Path) -> None:
@@ -489,10 +489,10 @@ def test_the_reference_can_be_chosen(run_folder: Path, capsys: pytest.CaptureFix
     text = text_of(run_folder)
     assert "Comparison with embree, build included" in text
     assert (
-        "multiple of that of embree (Embree's fastest of those with correct hits in the most views)"
+        "multiple of that of embree (Embree's fastest with correct hits in the most views)"
     ) in text
     text = page_of(run_folder, "--reference", "samet max_level=5").text
-    assert "multiple of that of samet max_level=5 (as --reference wants it)" in text
+    assert "multiple of that of samet max_level=5 (chosen by --reference)" in text
     assert "total times samet max_level=5" in text
     assert main(["page", str(run_folder), "--reference", "smet"]) == 2
     assert "no contender 'smet'" in capsys.readouterr().err
@@ -522,7 +522,7 @@ def test_the_trace_of_which_the_harness_has_the_largest_part_is_named(run_folder
     for part, figure in ((0.071, "7.1%"), (3.71, "371%")):
         changes = {"harness_overheads": [one | {"part": part}]}
         path.write_text(json.dumps(json.loads(path.read_text()) | changes))
-        words = f"{figure} of a trace is the harness's, at most: samet in escena1 at 640x480"
+        words = f"{figure} is the harness's largest share of a trace: samet in escena1 at 640x480"
         assert words in text_of(run_folder)
 
 
@@ -568,7 +568,7 @@ def test_the_work_of_a_page_grows_little_with_its_rows(tmp_path: Path) -> None:
 
 
 def changed_analysis(folder: Path, **changes: object) -> Path:
-    """Changes what analysis.json has of the run, and of its first view's fastest."""
+    """Changes analysis.json: facts of the run, and of the fastest contenders of its first view."""
     file = folder / "analysis.json"
     source = json.loads(file.read_text())
     source["steadiness"] = changes.get("steadiness")
@@ -604,7 +604,7 @@ def test_a_contender_that_may_be_as_fast_is_named(run_folder: Path) -> None:
 
 def test_a_mean_has_the_intervals_of_measuring_and_of_the_scatter(run_folder: Path) -> None:
     text = text_of(changed_analysis(run_folder, mean={"scatter_low": 1.5, "scatter_high": 2.5}))
-    assert "95% confidence interval of measuring" in text
+    assert "95% confidence interval of the measurement" in text
     assert "1.50 to 2.50" in text.partition("scatter between views")[2]
 
 

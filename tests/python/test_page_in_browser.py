@@ -1,6 +1,6 @@
 """The page of a run in headless Chromium: it sorts, filters, prints, and reports no errors.
 
-Tables are sorted and filtered by DataTables; what is tested is that ours are given to it right.
+DataTables sorts and filters the tables; the tests check that our pages pass their tables correctly.
 """
 
 from __future__ import annotations

@@ -293,7 +293,7 @@ def test_intervals_are_drawn(tmp_path: Path) -> None:
 
 
 def test_no_figure_is_taller_than_a_page_or_a_large_file(tmp_path: Path) -> None:
-    of_one_view = {"trade-offs", "distributions", "counters"}  # with more, more of the same
+    of_one_view = {"trade-offs", "distributions", "counters"}  # more views, more such figures
     stems = set()
     for scenes in (1, 12):
         (folder := tmp_path / str(scenes)).mkdir()

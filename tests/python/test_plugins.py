@@ -103,8 +103,8 @@ def test_no_traversal_of_the_template_calls_through_a_pointer(template: Path) ->
             timed[name] = function
     for query in ("::closest_hits(", "::any_hits(", "::closest_of_image("):
         assert any(query in name for name in timed)
-    # An image ends like the std::function that hands its rows to threads: by calling the function's
-    # manager (operation 3).
+    # The code of an image ends by destroying the std::function that hands its rows to threads, with
+    # a call of the function's manager (operation 3).
     manager = re.compile(r"\bmov +\$0x3,%edx\n(?:.*\bmov .*\n){1,2}.*\bcall +\*%rax")
     for name, code in timed.items():
         assert not re.search(r"\bcall\s+\*", manager.sub("", code)), name
@@ -144,7 +144,7 @@ def test_an_adapter_is_built_where_its_headers_are(
 
 
 def test_an_adapter_states_the_commit_of_its_library_alone(prefix: Path, tmp_path: Path) -> None:
-    """Not the commit of a checkout that happens to contain the library's folder."""
+    """The commit must not be that of a checkout that happens to contain the library's folder."""
     adapters = SOURCES.parents[1] / "harness/plugin/adapters"
     library = tmp_path / "library"
     library.mkdir()
@@ -336,7 +336,7 @@ def test_a_scene_is_named_as_it_is_asked_for_and_a_file_by_its_path(
         ("taken ending", ["'.obj'", "read already"]),
         ("no summary", ["without a summary"]),
         ("no function", ["without a function to build"]),
-        ("default out of range", ["defaults it would refuse", "leaf"]),
+        ("default out of range", ["invalid default parameters", "leaf"]),
     ],
 )
 def test_it_is_refused_by_name(faulty: Path, fault: str, words: list[str]) -> None:
@@ -528,7 +528,7 @@ def failure_of_picture(faulty: Path, tmp_path: Path, fault: str, *options: str) 
         ),
         ("throw in scene", ["threw when it made the scene row", "no idea"]),
         ("crash in scene", ["making the scene row", "crashed"]),
-        ("scene beyond its arrays", ["invalid scene row", "primitive 0", "not there"]),
+        ("scene beyond its arrays", ["invalid scene row", "primitive 0", "does not exist"]),
     ],
 )
 def test_a_picture_of_it_fails_by_name(

@@ -24,7 +24,7 @@ _FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
 def prefetches() -> Counter[str]:
     """Returns the number of prefetch instructions in each function of the program."""
     if platform.machine() != "x86_64" or not shutil.which("objdump"):
-        pytest.skip("the instruction is looked for on x86-64, by objdump")
+        pytest.skip("the test needs objdump and an x86-64 program")
     counts: Counter[str] = Counter()
     name = ""
     command = ["objdump", "--disassemble", "--no-show-raw-insn", "--wide", str(BINARY)]

@@ -301,7 +301,7 @@ def test_a_command_that_resumes_is_resumed(place: Place) -> None:
 
 @needs_binary
 def test_a_folder_that_is_new_gets_its_page(place: Place) -> None:
-    """Uses a real run, as short as its page allows: it has intervals, and two groups of scenes."""
+    """Uses a real run, as short as its page allows: with intervals and two groups of scenes."""
     (folder,) = read_plan().only(["embree-4"]).folders
     (sweep,) = folder.steps
     assert isinstance(sweep, Sweep)
@@ -334,7 +334,7 @@ def test_a_folder_that_lacks_something_says_so() -> None:
     with_embree_3 = Folder("beat-embree", "", (), embree="3")
     embree_4 = replace(HERE, embree="4.3.3")
     assert missing(with_embree_3, given(), embree_4) == (
-        "it takes Embree 3, and this program has 4.3.3"
+        "it needs Embree 3, but this program has 4.3.3"
     )
 
 
@@ -405,7 +405,7 @@ def test_texts_and_tests_change_no_measurement(tree: Path) -> None:
 
 
 def test_what_is_published_changes_no_sources(tree: Path) -> None:
-    """Otherwise every committed folder would require all others to be remade."""
+    """If it did, every committed folder would require all other folders to be measured again."""
     setting = of_head(tree)
     (tree / "results/published/rows.csv").write_text("2")
     require_clean(setting, tree)

@@ -61,7 +61,7 @@ def test_two_runs_of_the_thesis_are_compared_by_the_claims_that_both_decide() ->
 
 
 def test_times_are_found_again_where_a_second_run_lies_in_their_intervals(tmp_path: Path) -> None:
-    """One of 30 cells is outside its interval, and one has none; -4% counts like +4%."""
+    """One of 30 cells is outside its interval, and one has no interval; -4% counts like +4%."""
     changes = [1.06, 1.5, *(14 * [0.96]), *(14 * [1.04])]
     runs = []
     for name in ("first", "second"):
@@ -178,7 +178,7 @@ def test_a_sentence_that_is_not_so_any_more_is_found(copied: Path) -> None:
     template.write_text(sentence.format("{{ holds(order[0] == 'tile-beam') }}"), "utf-8")
     assert documents(copied)[0].text().endswith("\nThe best is `tile-beam`.\n")
     template.write_text(sentence.format("{{ holds(order[0] == 'samet') }}"), "utf-8")
-    with pytest.raises(Problem, match=r"README\.md\.j2:3: what this sentence says does not"):
+    with pytest.raises(Problem, match=r"README\.md\.j2:3: this sentence no longer follows"):
         documents(copied)[0].text()
 
 

@@ -124,7 +124,7 @@ def wrong(change: Callable[[Bsp], None]) -> bytes:
         (Bsp(textures=[("a", 0)]).bytes(), "no face that is drawn"),
         (
             wrong(lambda b: b.face(9, POLYGON, square(0), (0, 1, 2))),
-            "in face 7, there is texture 9",
+            "in face 7, the texture is 9",
         ),
         (wrong(lambda b: b.face(0, POLYGON, square(0), (0, 1, 4))), "mesh indices from 0 to 4"),
         (wrong(lambda b: b.face(0, POLYGON, square(0), (0, 1))), "three for each triangle"),
@@ -134,8 +134,8 @@ def wrong(change: Callable[[Bsp], None]) -> bytes:
         (wrong(lambda b: b.faces.append((0, 1, 90, 9, 0, 0, 0, 0))), "vertices 90 to 98"),
         (wrong(lambda b: b.models.pop()), "model *1"),
         (wrong(lambda b: b.models.append((0, 99))), ""),
-        (wrong(lambda b: setattr(b, "entities", '{"a" "b"')), "ends within one"),
-        (wrong(lambda b: setattr(b, "entities", '{"a" }')), "where none may be"),
+        (wrong(lambda b: setattr(b, "entities", '{"a" "b"')), "ends within an entity"),
+        (wrong(lambda b: setattr(b, "entities", '{"a" }')), "in a wrong place"),
         (
             wrong(lambda b: setattr(b, "entities", '{"model" "*1" "origin" "1 2"}')),
             "the origin '1 2'",
@@ -184,7 +184,7 @@ def test_the_command_writes_an_obj_and_names_the_file_at_fault(
     ]
     for member, why in (
         ("maps/cut.bsp", "it ends within lump"),
-        ("maps/no.bsp", "it holds no maps"),
+        ("maps/no.bsp", "it has no maps"),
     ):
         assert main([str(archive), member, str(output)]) == 2
         message = capsys.readouterr().err

@@ -25,7 +25,7 @@ from synthetic_run import synthetic_rows, without_times, write_cell, write_run
 
 
 def test_intervals_may_overlap_and_the_paired_ratio_be_clear_of_1() -> None:
-    """Both times range from 10 to 20 ms; in each round one is 5% above the other."""
+    """Both times range from 10 to 20 ms; in each round, one time is 5% above the other."""
     under = {turn: 10.0 + turn for turn in range(10)}
     over = {turn: 1.05 * time for turn, time in under.items()}
     ratio = paired_ratio(over, under)
@@ -44,7 +44,7 @@ def test_only_rounds_that_both_have_are_paired() -> None:
 
 
 def test_the_paired_interval_covers_what_it_says() -> None:
-    """Compares twelve rounds 2,000 times, with skewed noise: 96.1% by the binomial tables."""
+    """Compares twelve rounds 2,000 times, with skewed noise; binomial tables predict 96.1%."""
     random = np.random.default_rng(5)
     covered = 0
     for _ in range(2000):
@@ -66,7 +66,7 @@ def test_ends_of_medians_add_up_in_quadrature() -> None:
 def test_the_geometric_mean_has_an_interval_where_all_have_one() -> None:
     mean = geometric_mean([Ratio(2, 1, 4), Ratio(8, 4, 16)])
     assert mean.value == pytest.approx(4)
-    # Each is a factor of 2 from its ends; of two, the mean is 2 to the power of sqrt(2) / 2.
+    # The ends of each ratio are a factor of 2 away; those of the mean of two, 2^(sqrt(2) / 2).
     assert mean.low == pytest.approx(4 / 2 ** (2**0.5 / 2))
     assert mean.high == pytest.approx(4 * 2 ** (2**0.5 / 2))
     assert geometric_mean([Ratio(2, 1, 4), Ratio(8)]).interval is None
@@ -108,7 +108,7 @@ def test_without_a_right_contender_there_is_no_reference(tmp_path: Path) -> None
 
 def test_a_wanted_reference_that_is_not_there_is_refused(run_folder: Path) -> None:
     with pytest.raises(
-        Problem, match="no contender 'smet' was right; there are: exhaustive, samet"
+        Problem, match="no contender 'smet' has correct hits; these have: exhaustive, samet"
     ):
         choose_reference(read_run(run_folder), "smet")
 
@@ -141,7 +141,7 @@ def test_without_repetitions_it_is_the_ratio_of_medians_not_paired(run_folder: P
 @pytest.mark.parametrize("line", ['{"event": "finished", "index": 0}', '{"row": {}}', "[1", "3"])
 def test_a_line_that_is_no_event_is_named(run_folder: Path, line: str) -> None:
     (run_folder / "run.jsonl").write_text(f'{{"event": "header"}}\n{line}\n')
-    with pytest.raises(Problem, match=r"run\.jsonl, line 2: is no"):
+    with pytest.raises(Problem, match=r"run\.jsonl, line 2: (not an event|is not JSON)"):
         read_cell_files(run_folder)
 
 

@@ -100,7 +100,7 @@ def test_another_version_of_the_schema_is_refused(tmp_path: Path, version: objec
     rows = synthetic_rows()
     rows[3] = {**rows[3], "schema_version": version}
     with pytest.raises(
-        Problem, match=r"row 5: schema_version is '.*', and this reads versions 1 to 2"
+        Problem, match=r"row 5: schema_version is '.*', but only versions 1 to 2 can be read"
     ):
         read_run(write_run(tmp_path, rows))
 
@@ -124,7 +124,7 @@ def test_hashes_of_digits_alone_stay_texts(tmp_path: Path) -> None:
 
 
 def test_a_run_without_rows_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(Problem, match="holds no row"):
+    with pytest.raises(Problem, match="has no rows"):
         read_run(write_run(tmp_path, []))
 
 

@@ -1,4 +1,4 @@
-"""Releases: one version everywhere, a record of all, and steps that are done once."""
+"""Releases: one version everywhere, a record of all releases, and steps that each run once."""
 
 from __future__ import annotations
 
@@ -137,8 +137,8 @@ RIGHT = f"0.2.0,2026-11-24,{'a' * 40},x.whl,7,{'b' * 64}\n"
         (RIGHT.replace("0.2.0", "0.2"), "2: version is '0.2'"),
         (RIGHT.replace("a" * 40, "a" * 7), "2: commit is"),
         (RIGHT.replace(",7,", ",0,"), "2: bytes is '0'"),
-        (RIGHT.replace("b" * 64, ""), "2: file, bytes and sha256 are not all"),
-        (RIGHT + RIGHT, "3: x.whl is there twice"),
+        (RIGHT.replace("b" * 64, ""), "2: file, bytes and sha256 must be all"),
+        (RIGHT + RIGHT, "3: x.whl is listed twice"),
         (RIGHT + RIGHT.replace("x.whl", "y.whl").replace("-24", "-25"), "3: version 0.2.0 has two"),
         (RIGHT + RIGHT.replace("0.2.0", "0.10.0").replace("x.", "y."), "3: versions are not in"),
     ],
@@ -216,7 +216,7 @@ def test_the_source_archive_has_its_commit(tree: Path, tmp_path: Path) -> None:
 
 
 def sound_program(folder: Path) -> trials.Program:
-    """Returns a program that does what try_program() wants to see."""
+    """Returns a program that passes try_program()."""
 
     def program(*arguments: str) -> str:
         if arguments[0] == "fingerprint":

@@ -45,11 +45,11 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("run", ["--swep", "x"], "unknown argument '--swep'"),
         ("run", ["--sweep"], "--sweep needs a file"),
         ("run", ["--sweep", "no/such.json"], "no/such.json is not a file that can be read"),
-        ("run", ["--sweep", "quik"], "no sweep has that name; there are: "),
+        ("run", ["--sweep", "quik"], "no sweep has that name; the sweeps are: "),
         ("run", ["--resume"], "--resume needs the folder of a run"),
         ("run", ["--resume", "no/such"], "no/such is not the folder of a run"),
         ("run", ["--resume=a", "--output=b"], "--resume excludes --sweep and --output"),
-        ("setup", ["--jobs"], "knows no job '--jobs', only program, python, beambench, "),
+        ("setup", ["--jobs"], "unknown job '--jobs'; the jobs are program, python, beambench, "),
         ("setup", ["all", "cluster"], "takes one job, not 2"),
         ("test", ["--quick"], "unknown arguments: --quick"),
         ("meshes", ["--all"], "unknown argument '--all'"),
@@ -59,7 +59,11 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("meshes", ["sponza"], "sponza is in no package; download it, and register it with --from"),
         ("meshes", ["--from"], "--from needs a folder"),
         ("meshes", ["--from", "."], "--from needs one name, not 0"),
-        ("meshes", ["--from", ".", "teapot"], "--from knows no 'teapot', only sponza, san-miguel"),
+        (
+            "meshes",
+            ["--from", ".", "teapot"],
+            "--from has no scene 'teapot', only sponza, san-miguel",
+        ),
         ("meshes", ["--from", "no/such", "sponza"], "no/such is not a folder; give the one that"),
         ("meshes", ["--from", "scenes", "lucy"], "scenes holds no lucy.ply or lucy.ply.gz; unpack"),
     ],
@@ -179,7 +183,7 @@ def test_two_set_ups_of_one_tree_take_turns(bare_tree: Path) -> None:
     second = set_up(bare_tree, "beambench")
     outputs = [process.communicate(timeout=120)[0] for process in (first, second)]
     assert [process.returncode for process in (first, second)] == [0, 0]
-    assert sum("Another scripts/setup works in this tree" in output for output in outputs) == 1
+    assert sum("Another scripts/setup is running in this tree" in output for output in outputs) == 1
 
 
 def test_scripts_run_installs_nothing_that_only_tests_or_the_cluster_need(repository: Path) -> None:

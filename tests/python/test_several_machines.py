@@ -69,7 +69,7 @@ def test_means_are_over_the_highest_resolution_of_each_view(folder: Path) -> Non
 
 
 def test_ratios_are_those_of_one_machine(folder: Path, tmp_path: Path) -> None:
-    """The same ratios as if one machine had measured everything."""
+    """The ratios must be the same as if one machine had measured everything."""
     alone = tmp_path / "alone"
     alone.mkdir()
     write_run(alone, synthetic_rows())
@@ -100,7 +100,7 @@ def test_break_even_is_between_rows_of_one_machine(folder: Path) -> None:
 
 
 def test_tables_over_scenes_and_resolutions_are_refused(folder: Path) -> None:
-    with pytest.raises(Problem, match=r"of 2 machines \(0123456789abcdef, fedcba9876543210\)"):
+    with pytest.raises(Problem, match=r"from 2 machines \(0123456789abcdef, fedcba9876543210\)"):
         measured_evidence([folder])
 
 

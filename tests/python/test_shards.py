@@ -54,7 +54,7 @@ def same_rows(wanted: Path, found: Path) -> None:
 
 
 def wait_until_unlocked(folder: Path) -> None:
-    """Waits for the process of a block, which ends with the run that was killed, but after it."""
+    """Waits for the process of a block, which ends shortly after the killed run."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)
@@ -75,7 +75,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def copy(measured: Path, tmp_path: Path) -> Path:
-    """A copy of that folder for changes."""
+    """A copy of the measured folder that a test may change."""
     return Path(shutil.copytree(measured, tmp_path / "copy"))
 
 
@@ -156,7 +156,7 @@ def test_rows_keep_their_machines(copy: Path) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_killed_shard_is_resumed_and_merged(measured: Path, tmp_path: Path, seed: int) -> None:
-    """Repeats this until the run is complete; the moments of the kills are random."""
+    """Kills and resumes a shard at random moments until its run is complete."""
     random, tally, programs = Random(seed), Tally(), Programs()
     number = random.randint(1, COUNT)
     lost = tmp_path / "lost"
@@ -366,7 +366,7 @@ def test_a_shard_that_is_being_measured_is_refused(measured: Path, tmp_path: Pat
 
 
 def test_a_shard_without_rays_is_no_failure(tmp_path: Path) -> None:
-    """Another shard may have rays."""
+    """A shard without rays succeeds, because other shards may have rays."""
     sweep = write_sweep(tmp_path, scenes=["tetra:n=1"], rays=["primary", "mirror"])
     codes = []
     for number in range(1, 5):
@@ -415,7 +415,7 @@ def test_each_process_of_a_job_measures_its_shard(tmp_path: Path) -> None:
 
 
 def test_a_job_array_is_submitted_merged_and_resumed(tmp_path: Path) -> None:
-    """Uses a Slurm that runs each task at once; the real one is described in scripts/README.md."""
+    """Uses a fake Slurm that runs each task at once; scripts/README.md covers the real one."""
     tools = tmp_path / "bin"
     tools.mkdir()
     (tools / "sbatch").write_text(
@@ -441,7 +441,7 @@ def test_a_job_array_is_submitted_merged_and_resumed(tmp_path: Path) -> None:
     assert not (job / "merged").exists(), "the third shard was lost"
     done = script("slurm", *request, **path)
     assert done.returncode == 2
-    assert "is there already" in done.stderr
+    assert "already exists" in done.stderr
 
     forget_cell(job / "shard-2", begun_cells(job / "shard-2")[0]["index"])  # killed
     (tmp_path / "repaired").touch()
@@ -473,9 +473,9 @@ def test_a_job_array_is_submitted_merged_and_resumed(tmp_path: Path) -> None:
         ("slurm", ["--sweep", "quick", "--output", "x"], "--shards '' is not a number"),
         ("slurm", ["--sweep", "quick", "--shards", "0", "--output", "x"], "'0' is not a number"),
         ("slurm", ["--sweep", "quick", "--shards", "4"], "--output is missing"),
-        ("slurm", ["--sweep", "quick", "--shards", "4", "--output", "/"], "is there already"),
+        ("slurm", ["--sweep", "quick", "--shards", "4", "--output", "/"], "already exists"),
         ("slurm", ["--resume", "no/such"], "was not begun by scripts/slurm"),
-        ("slurm", ["--resume", "x", "--shards", "4"], "--resume takes nothing else"),
+        ("slurm", ["--resume", "x", "--shards", "4"], "--resume takes no other options"),
         ("slurm", ["--resume"], "--resume needs a value"),
         ("slurm", ["quick"], "unknown argument 'quick'"),
     ],

@@ -1,4 +1,4 @@
-"""The site over all runs, as files: its contents, its refusals, and its amount of work."""
+"""The site over all runs, as files: its contents, its refusals, and the work of writing it."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def test_a_broken_run_is_named_with_the_reason(runs: Path, site: Path) -> None:
 def test_a_run_that_is_there_twice_is_kept_twice_and_named(runs: Path, site: Path) -> None:
     name = "20260102T030000Z-alone-a"
     text = (site / "index.html").read_text()
-    assert f"The run {name} is there twice: {runs / 'alone'} is {name}" in text
+    assert f"The run {name} exists twice: {runs / 'alone'} is {name}" in text
     assert f"{runs / 'copied'} is {name}-2." in text
     assert (site / f"runs/{name}-2/index.html").is_file()
 
@@ -126,7 +126,7 @@ def test_each_run_is_compared_with_the_one_before_on_its_sweep(site: Path) -> No
     other = quick.format(20260102, "b")
     assert f"{first}-vs-{second}" in names
     assert f"{second}-vs-{third}" in names
-    assert f"{other}-vs-{third}" in names, "the newest before it ran elsewhere"
+    assert f"{other}-vs-{third}" in names, "the run before it is of another machine"
     assert len([name for name in names if name.startswith(f"{second}-vs-{other}")]) == 1
     text = (site / f"compare/{first}-vs-{second}.html").read_text()
     assert "ms before" in text
@@ -198,8 +198,8 @@ def test_other_rays_other_work_and_wrong_hits_are_told(tmp_path: Path) -> None:
     comparison = compare(*map(entry, folders))
     assert comparison.sentences == (
         "exhaustive in escena1 at 320x200: ok before, mismatch now.",
-        "1 cell has other counters.",
-        "1 cell has other rays or scenes; they are not compared.",
+        "1 cell has different counters.",
+        "1 cell has different rays or scenes; they are not compared.",
     )
 
 
@@ -250,7 +250,7 @@ def test_wrong_requests_are_one_sentence(
     for folder, target, message in (
         ("no/such", "site", "no/such: is not a folder"),
         (tmp_path / "empty", "site", "holds no run"),
-        (runs, "full", "is not empty, and no site"),
+        (runs, "full", "is neither empty nor a site"),
     ):
         assert main(["site", str(folder), "-o", str(tmp_path / target)]) == 2
         assert message in capsys.readouterr().err

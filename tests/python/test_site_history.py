@@ -90,7 +90,7 @@ def test_it_says_first_what_is_wrong(page: Path, home: Home) -> None:
     assert "Times are not tested yet: this machine has 3 runs" in head
     assert "Since the run before" in head
     assert "Since the published run" in head
-    assert "6 cells have other counters" in head
+    assert "6 cells have different counters" in head
     assert "9 alarms in the newest run of made-up" in (home.site / "index.html").read_text()
 
 
@@ -108,9 +108,9 @@ def test_nights_from_before_blocks_are_shown_and_marked(chromium: Browser, tmp_p
     write_site([home.folder], home.site)
     page = history_of(home)
     text = page.read_text()
-    assert "2 of the 4 runs are from before blocks: shown, and compared with no" in text
+    assert "2 of the 4 runs were not measured in blocks: shown, but not" in text
     assert "this machine has 2 runs in blocks" in text
-    assert text.count("<small>before blocks: not compared</small>") == 2
+    assert text.count("<small>not measured in blocks: not compared</small>") == 2
     assert len(list((home.site / "compare").glob("*-vs-*.html"))) == 2, "none across the change"
     chromium.open(page)
     points = "[...document.querySelectorAll('#series circle')].map(dot => dot.getAttribute('fill'))"
@@ -123,9 +123,9 @@ def test_nights_from_before_blocks_are_shown_and_marked(chromium: Browser, tmp_p
     )
     status = "document.getElementById('status').innerText"
     for _ in range(50):
-        if "before blocks" in chromium.evaluate(status):
+        if "not measured in blocks" in chromium.evaluate(status):
             break
-    assert "One of these runs is from before blocks" in chromium.evaluate(status)
+    assert "One of these runs was not measured in blocks" in chromium.evaluate(status)
     assert chromium.evaluate("document.querySelectorAll('#any-table tbody tr').length") == 0
     assert chromium.complaints == []
 

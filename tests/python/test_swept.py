@@ -14,7 +14,7 @@ Row = dict[str, object]
 
 
 def swept_rows(scenes: int, times: dict[tuple[str, str], dict[int, float]]) -> list[Row]:
-    """Returns rows of two resolutions: the trace ms of structures, other parameters and levels."""
+    """Returns rows of two resolutions; `times` has trace ms by structure, parameters and level."""
     sizes = [row for row in synthetic_rows() if row["structure"] == "null" and row["width"] != 640]
     return [
         row
@@ -53,7 +53,7 @@ def test_the_others_are_divided_by_the_structure_that_sweeps_nothing_else(tmp_pa
             for line in axes.lines
             if line.get_marker() in ("o", "s")
         }
-        # 8 / 4, 6 / 12; 8 / 2, 6 / 3: samet-net has only one level, which does not make a line.
+        # 8 / 4, 6 / 12; 8 / 2, 6 / 3. samet-net has only one level, too few for a line.
         assert set(joined) == {(2.0, 0.5), (4.0, 2.0)}
         assert {line.get_color() for line in joined.values()} == {structure_color("beam")}
         assert {line.get_marker() for line in joined.values()} == {"o", "s"}

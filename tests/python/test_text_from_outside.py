@@ -35,7 +35,7 @@ s 1 0 0 0.5
 """
 SMALL = ("--resolution", "8x8")
 ESCAPED = "esc\x1b.nff"
-LATIN = "bad\udcff.nff"  # the byte FF, as Python names it
+LATIN = "bad\udcff.nff"  # contains the byte FF, as Python represents it
 
 
 def run_bytes(

@@ -60,7 +60,7 @@ def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str
         (["--table", "5.9"], "there is no table '5.9'; there are 5.2, 5.3"),
         (["--figure", "5.3"], "there is no figure '5.3'; there are 5.4, 5.5"),
         (["--resume", "no/such"], "give the folder that an earlier scripts/thesis wrote"),
-        (["--resume", "x", "--quick"], "--resume continues what was begun"),
+        (["--resume", "x", "--quick"], "--resume continues a run"),
         (["--report-only"], "--report-only needs the folder of a run"),
     ],
 )

@@ -30,11 +30,11 @@ RANDOM = np.random.default_rng(7)
 
 
 def synthetic_cells(tmp_path: Path, spoil: float = 0.0) -> list[Cell]:
-    """Returns cells of Samet and beams whose times are exactly the sums, or off at random by
-    `spoil`.
+    """Returns cells of Samet and beams. Their times are the exact sums, or deviate at random by up
+    to `spoil`.
 
-    Build 80 ns a node and 180 a reference; rays 5 + 9 a leaf + 13 a test; beams 250 and 350, 7 a
-    leaf and 20 a test of half of the rays.
+    A build costs 80 ns per node and 180 per reference; a ray 5, and 9 per leaf and 13 per test;
+    beams 250 or 350 each, and for half of the rays 7 per leaf and 20 per test.
     """
     rows = []
     for scene in SCENES:
@@ -75,8 +75,9 @@ def synthetic_cells(tmp_path: Path, spoil: float = 0.0) -> list[Cell]:
 
 
 def tasks(beams: float, ends: float, rays: float) -> Row:
-    """Returns tasks. Non-terminal beams cost 100 each, 8 an edge, 60 a clip, 30 a search; beams at
-    leaves cost 200 each, 40 a sample, 12 a test, 15 a ray that continues, 9 a leaf on its path.
+    """Returns tasks. Non-terminal beams cost 100 each, 8 per edge, 60 per clip and 30 per search.
+    Beams at leaves cost 200 each, 40 per sample, 12 per test, 15 per ray that continues, and 9 per
+    leaf on its path.
     """
     edges, clips, searches, samples, tests, after, steps = RANDOM.uniform(1, 9, 7)
     passing = beams * (100 + 8 * edges + 60 * clips + 30 * searches)
@@ -175,8 +176,8 @@ def test_cells_that_the_formulas_do_not_speak_of_are_left_out(tmp_path: Path) ->
         rows.append(row)
     write_run(tmp_path, rows)
     cells = read_cells(tmp_path.parent, [tmp_path.name]).cells
-    # 48 samples differ from the thesis; 64,000 thousandths of a nanosecond are too short to
-    # measure.
+    # A handover of 48 samples is not the thesis's; 64,000 times a thousandth of a nanosecond is too
+    # short to measure.
     assert [one.cell.line for one in thesis_formulas()[0].observe(cells)] == [2]
 
 

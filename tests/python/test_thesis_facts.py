@@ -112,7 +112,7 @@ def test_the_sections_state_what_the_files_have(stand_in: Path, tmp_path: Path) 
         "2.50 times as many, one of level 7 by 4.00 times fewer." in texts["visits"]
     )
     assert "| 6 | 8 | 400 | 0.625% | 8 | 8 | 8 | 8 |" in texts["visits"]
-    assert "250,000 from the scene's own camera and 10,000 from the turned one" in texts["camera"]
+    assert "250,000 from the scene's own camera and 10,000 from the turned" in texts["camera"]
     assert "| thesis | 612,706 | 3,031 |" in texts["camera"]
 
 
@@ -155,7 +155,7 @@ def test_the_script_s_help_says_so_too(repository: Path) -> None:
     text = " ".join((repository / "scripts/thesis").read_text().split())
     (words,) = [part for part in _QUICK.split("; ") if part.startswith("enough")]
     assert words.removeprefix("enough for the claims ").split(" alone")[0] in text
-    assert "--levels also how well max_level=auto chooses the level" in text
+    assert "--levels also measure how well max_level=auto chooses the level" in text
 
 
 @pytest.mark.full

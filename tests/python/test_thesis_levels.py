@@ -32,7 +32,7 @@ def row(
     structure: str = "beam",
     cycles: float | None = None,
 ) -> Row:
-    """Returns a cell at 320x200; at 3 GHz by default."""
+    """Returns a cell at 320x200, measured at 3 GHz by default."""
     made = row_of(PlannedCell(scene, structure, (), "320x200", 1))
     parameters = str(made["parameters"]).replace("max_level=6", f"max_level={level}")
     return made | {
@@ -117,7 +117,7 @@ def test_a_choice_without_two_levels_beside_it_is_none(tmp_path: Path) -> None:
 
 
 def synthetic_levels(folder: Path) -> list[Cell]:
-    """Returns ten scenes: losses of 0, 1, ... 8 and 30% for beams, 25% less for samet."""
+    """Returns cells of ten scenes: losses of 0, 1, ... 8 and 30% for beams, 25% less for samet."""
     rows = []
     for number, scene in enumerate(list(primitives_by_scene())[:10]):
         loss = 0.01 * number if number < 9 else 0.3
@@ -158,12 +158,12 @@ def test_the_command_prints_the_choices_or_writes_them(
     synthetic_levels(tmp_path)
     assert main(["levels", str(tmp_path / "levels")]) == 0
     printed = capsys.readouterr().out
-    assert "19 of 20 choices (95%) lose less than 10%; the target, nine of ten, is met." in printed
+    assert "19 of 20 choices (95%) lose less than 10%; the target, 90% of them, is met." in printed
     assert "| beam | 10 | 9 (90%) | 10 of 10 (100%) | +4.5% | +30.0% |" in printed
     assert "| 130 ms, levels:58 | 100 ms, levels:56 | +30.0% | +4.0%, levels:57 |" in printed
     file = tmp_path / "levels.md"
     assert main(["levels", str(tmp_path / "levels"), "-o", str(file)]) == 0
-    assert "![What choosing the level loses against the best level](level-choice.png)" in (
+    assert "![Loss of the automatic choice against the best level](level-choice.png)" in (
         file.read_text()
     )
     assert (tmp_path / "level-choice.svg").exists()

@@ -29,7 +29,7 @@ PLAN = make_plan([], [], False)
 
 @pytest.fixture(scope="module")
 def everything(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """All runs, all correct."""
+    """The folder of all runs, whose hits are all correct."""
     return write_runs(tmp_path_factory.mktemp("thesis") / "run", PLAN)
 
 
@@ -41,7 +41,7 @@ def cells(everything: Path) -> Cells:
 
 @pytest.fixture(scope="module")
 def report(everything: Path) -> Report:
-    """Facts that the page of all runs states."""
+    """The facts that the page of all runs states."""
     return gather(everything, PLAN)
 
 
@@ -184,7 +184,7 @@ def test_a_best_level_at_the_end_of_the_sweep_is_told(tmp_path: Path) -> None:
     choice = choose(cells_in(run, plan).of("misil", "samet", "320x200"))
     assert (choice.parameters, choice.is_edge) == ("max_level=9", True)
     write_report(run, plan)
-    assert "at the end of what was tried" in texts_of(run)
+    assert "at the end of the tried range" in texts_of(run)
 
 
 def test_the_page_holds_everything_and_every_number_leads_to_its_row(page: str) -> None:
@@ -230,7 +230,7 @@ def test_captions_state_that_few_repetitions_have_no_bars(report: Report) -> Non
     captions = [figure.caption for figure in report.figures]
     with_bars = [caption for caption in captions if "ars are 95% intervals" in caption]
     assert len(with_bars) > 10
-    assert all("points without bars were repeated too seldom" in caption for caption in with_bars)
+    assert all("points without bars have too few repetitions" in caption for caption in with_bars)
 
 
 def test_every_axis_and_color_of_a_figure_is_named(everything: Path, page: str) -> None:
@@ -248,7 +248,7 @@ def test_figures_are_drawn_as_multiples_of_the_same_base(report: Report) -> None
     assert len(five.left.lines) == len(five.right.lines) == 4
     assert [place for place, _ in figures["5.14"].panels[0].right.lines[0].at] == [4, 5, 6, 7, 8]
     flamenco = {line.label: line.at for line in figures["5.17"].panels[0].right.lines}
-    # The thesis's 93 s with 13 cells and 516 s with 32, over the latter.
+    # The thesis's 93 s with 13 cells and 516 s with 32, divided by 516 s.
     assert flamenco["thesis"] == [
         (13.0, Measured.exact(pytest.approx(93 / 516))),
         (32.0, Measured.exact(1.0)),
@@ -264,8 +264,8 @@ def test_a_part_of_the_runs_makes_a_report_that_says_what_is_missing(
     run = write_runs(tmp_path / "run", PLAN, only=lambda sweep: sweep.name == present)
     write_report(run, PLAN)
     text = pages_of(run)
-    assert ("Nothing was measured yet." in text) == (present == "none")
-    assert "Not everything that was planned is there" in text
+    assert ("Nothing has been measured yet." in text) == (present == "none")
+    assert "Some planned runs are missing or incomplete" in text
     assert "not run" in text
     assert ('id="figure-5.12"' in text) == (present == "synthetic")
     assert 'id="figure-5.13"' not in text

@@ -53,7 +53,7 @@ def test_settings_between_two_that_were_tried_lie_on_the_line_that_is_drawn(
     comparison = read_comparison(write_comparison(tmp_path / "a.json"))
     assert comparison.methods == ["uniform", "object-space", "image-space"]
     assert comparison.thesis.milliseconds == 200
-    # From 40 ms and 8 to 160 ms and 2: on logarithmic scales, an error of 4 is halfway.
+    # The line runs from 40 ms, error 8, to 160 ms, error 2; on logarithmic scales, 4 is halfway.
     assert comparison.time_at_error("object-space", 4.0) == pytest.approx(80)
     assert comparison.error_at_time("object-space", 80.0) == pytest.approx(4)
     assert comparison.error_at_time("uniform", 100.0) == pytest.approx(math.sqrt(32))
@@ -83,7 +83,8 @@ def test_the_section_compares_with_five_samples_in_every_pixel(tmp_path: Path) -
     assert "|  | object-space | – | – | 200 ms | 100% | 4.00 |" in text  # noqa: RUF001
     # 40% in delfines and 100% in escena1; tetra has no uniform samples for comparison.
     assert (
-        "less time in 1 of the 2 scenes that were tried, by the median of 2 in 70% of it." in text
+        "less time in 1 of the 2 scenes that were tried; the median, of 2, is 70% of the "
+        "thesis's time." in text
     )
     assert "image-space: every setting that was tried has a larger error than five samples" in text
     assert "| object-space | 0.15, 0.6 | 1.500 | 160 ms | 2.000 |" in text
@@ -108,9 +109,9 @@ def test_a_method_whose_settings_all_have_a_smaller_error_is_better_and_no_failu
     assert read_comparison(files[1]).reached("image-space", 4.0) is None
     section = sampling_section(read_comparisons(files)[0])
     assert section.findings == (
-        "image-space reaches the error of the thesis's five samples, or a smaller one, in less "
-        "time in 1 of the 2 scenes that were tried, by the median of 1 in at most 50% of it; in 1 "
-        "every setting has a larger error.",
+        "image-space reaches the error of the thesis's five samples, or a smaller error, in less "
+        "time in 1 of the 2 scenes that were tried; the median, of 1, is at most 50% of the "
+        "thesis's time; in 1 of them, every setting has a larger error.",
     )
     text = section_as_markdown(section)
     assert "|  | image-space | – | – | at most 100 ms | at most 50% |" in text  # noqa: RUF001

@@ -264,7 +264,7 @@ def test_other_files_are_refused_with_one_sentence(traced: Traced, tmp_path: Pat
         (SCENE, rays, tmp_path / "words.csv", ["words.csv:3", "column 't'", "'maybe'"]),
         (SCENE, rays, tmp_path / "cut.hits", ["cut.hits", "bytes of hits"]),
         (SCENE, rays, tmp_path / "none.hits", ["none.hits", "No such file"]),
-        (SCENE, rays, rays, ["this is not a file of hits"]),
+        (SCENE, rays, rays, ["this is not a hit file"]),
         (SCENE, hits, hits, ["'beambench rays"]),
         ("tetra:n=2", rays, hits, ["made for a scene with hash"]),
         (SCENE, tmp_path / "nan.csv", hits, ["nan.csv:3"]),
@@ -287,7 +287,7 @@ def test_other_files_are_refused_with_one_sentence(traced: Traced, tmp_path: Pat
         ([SCENE, "--rays", "a.rays", "--hits", "a.hits", "--accel", "samet"], ["--accel"]),
         ([SCENE, "--rays", "a.rays", "--command", "true"], ["no {hits}"]),
         ([SCENE, "--kit", "kit"], ["leave out SCENE and --hits"]),
-        (["--kit", "no-kit"], ["no-kit/kit.json", "holds no kit", "selftest --export"]),
+        (["--kit", "no-kit"], ["no-kit/kit.json", "does not contain a kit", "selftest --export"]),
     ],
 )
 def test_requests_that_do_not_go_together_are_refused(
@@ -311,7 +311,7 @@ def test_obj_files_have_the_triangles_that_hits_name(tmp_path: Path) -> None:
     assert faces.max() < len(vertices)
     facts = json.loads(output_of("scene", "gears:n=2", "--json"))
     assert len(faces) > facts["primitives"], (
-        "polygons of four corners and more are several triangles"
+        "polygons with four or more corners are several triangles"
     )
     refused(beambench("export", "balls:n=1", "-o", tmp_path / "b.obj"), ["spheres", ".nff"])
     refused(beambench("export", "tetra:n=1", "-o", tmp_path / "b.stl"), [".nff or .obj"])
@@ -349,7 +349,7 @@ def test_a_kit_holds_each_scene_as_files(kit: Path) -> None:
         faces = [line for line in (folder / "scene.obj").read_text().splitlines() if line[0] == "f"]
         assert len(faces) == case["triangles"] > 0
         assert case["family"]
-        assert "either result" in case["tolerance"] or "any of the" in case["tolerance"]
+        assert "hit or miss" in case["tolerance"] or "any of the" in case["tolerance"]
         whole = np.isinf(closest[7::8]) & (closest[3::8] == 0)
         assert whole.all() if case["family"] != "t interval" else not whole.any()
     families = {case["family"] for case in index["cases"]}
@@ -428,7 +428,7 @@ def family_rows(text: str) -> list[tuple[str, str]]:
 
 
 def test_a_program_may_decline_a_query_by_exit_code_77(kit: Path) -> None:
-    """Half of the cases are unsupported, and the supported ones decide."""
+    """Half of the cases are unsupported; the supported cases decide the verdict."""
     command = "head -2 {rays} | grep -aq '\"any\"' && exit 77; " + HITS_COMMAND
     done = beambench("verify", "--kit", kit / "kit", "--command", command)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -481,7 +481,7 @@ def test_a_closed_mesh_must_not_leak(kit: Path, tmp_path: Path) -> None:
     row = next(line for line in done.stdout.splitlines() if line.startswith("closed mesh"))
     assert re.split(" {2,}", row)[6:9] == ["0", "0", str(closest["leaks"])], "graze, wrong, leaks"
 
-    # Few triangles are left, over which the tracer still leaks, and a correct one does not.
+    # Over the few remaining triangles, the faulty tracer still leaks, and a correct one does not.
     for folder in sorted((tmp_path / "failures").iterdir()):
         reduced = json.loads((folder / "case.json").read_text())
         assert 2 <= len(reduced["primitives"]) <= 8

@@ -1,5 +1,5 @@
-// Files of hits, and rays as CSV: written files read back, and malformed ones are refused with the
-// place of the error.
+// Hit files, and rays as CSV: written files can be read back, and malformed files are refused with
+// the place of the error.
 
 #include "harness/rays/hit_file.hpp"
 
@@ -102,11 +102,11 @@ TEST_F(HitFile, AcceptsTheCsvDialectsOfPrograms) {
 
 TEST_F(HitFile, ThatIsMalformedIsRefusedWithItsPlace) {
   for (const auto& [text, why] : std::vector<std::pair<std::string, std::string>>{
-           {"", "this is not a file of hits"},
+           {"", "this is not a hit file"},
            {"t,primitive\n", "it contains no hits"},
            {"t,id\n1,2\n", "some.hits:1: column 'id' is unknown"},
            {"t,t\n1,2\n", "some.hits:1: column 't' appears twice"},
-           {"time,id\n1,2\n", "this is not a file of hits"},
+           {"time,id\n1,2\n", "this is not a hit file"},
            {"t;primitive\n1;2\n", "some.hits:1: the columns are separated by semicolons"},
            {"t\tprimitive\n1\t2\n", "some.hits:1: the columns are separated by tabs"},
            {",t,primitive\n0,1,2\n", "some.hits:1: column 1 has no name"},
@@ -133,7 +133,7 @@ TEST_F(HitFile, ThatIsMalformedIsRefusedWithItsPlace) {
            {"beambench-hits 1\n{\"hits\":0,\"columns\":[\"t\"]}\n", "\"hits\" is not"},
            {"beambench-hits 1\n{\"hits\":1}\n1234", "\"columns\" is not a list of names"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[3]}\n1234", "\"columns\" is not"},
-           {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"u\"]}\n1234", "not a file of hits"},
+           {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"u\"]}\n1234", "not a hit file"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"t\",\"u\"]}\n1234",
             "some.hits:2: column 'u'"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"t\"]}\n123",
@@ -141,7 +141,7 @@ TEST_F(HitFile, ThatIsMalformedIsRefusedWithItsPlace) {
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"t\"]}\n12345", "5 bytes of hits"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"t\",\"primitive\"]}\n1234",
             "4 bytes of hits follow the header; expected 8"},
-           {"beambench-hits 2\n{}\n", "this is not a file of hits"}}) {
+           {"beambench-hits 2\n{}\n", "this is not a hit file"}}) {
     const std::string message = refusal(text);
     EXPECT_TRUE(says(message, {"some.hits", why})) << text << "\n" << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
@@ -176,8 +176,8 @@ TEST_F(HitFile, RaysAsCsvAreTheSameRays) {
 TEST_F(HitFile, RaysAsCsvThatAreMalformedAreRefusedWithTheirLine) {
   const std::string columns = "ox,oy,oz,t_min,dx,dy,dz,t_max\n";
   for (const auto& [text, why] : std::vector<std::pair<std::string, std::string>>{
-           {"time,place\n1,2\n", "this is not a file of rays"},
-           {"0,0,0,0,0,0,1,inf\n", "this is not a file of rays"},
+           {"time,place\n1,2\n", "this is not a ray file"},
+           {"0,0,0,0,0,0,1,inf\n", "this is not a ray file"},
            {"ox,oy,oz,dx,dy\n1,2,3,4,5\n", "a.csv:1: column 'dz' is missing"},
            {"ox,oy,oz,dx,dy,dz,dz\n", "a.csv:1: column 'dz' appears twice"},
            {"ox,oy,oz,dx,dy,DZ,dz\n", "a.csv:1: column 'dz' appears twice"},

@@ -51,8 +51,8 @@ TEST(LevelVisits, HoldEveryNodeAndEveryLeafThatARayEnters) {
 
 TEST(LevelVisits, CountARayOnceForEachNodeItPassesThrough) {
   const std::vector<LevelVisits> levels = visited("samet:max_level=6").levels;
-  // At the root, all rays that enter it, once. On deeper levels, a ray passes at least as many
-  // nodes as it has leaves on that level, and at most as many as it has leaves there and below.
+  // At the root, each ray that enters is counted once. On deeper levels, a ray passes at least as
+  // many nodes as leaves on this level, and at most as many as leaves on this and deeper levels.
   EXPECT_LE(levels[0].node_visits, 64U * 50U);
   EXPECT_GT(levels[0].node_visits, 64U * 50U / 2);
   std::uint64_t below = 0;

@@ -138,7 +138,7 @@ TEST(AreaLights, AreBallsAroundTheLights) {
     ASSERT_EQ(points.size(), scene.lights.size() * static_cast<std::size_t>(count));
     for (std::size_t light = 0; light < scene.lights.size(); ++light) {
       dvec3 mean(0.0);
-      double nearer = 0.0;  // than the sphere that halves the ball's volume
+      double nearer = 0.0;  // inside the sphere that halves the ball's volume
       for (int i = 0; i < count; ++i) {
         const auto& point =
             points[light * static_cast<std::size_t>(count) + static_cast<std::size_t>(i)];
@@ -155,7 +155,7 @@ TEST(AreaLights, AreBallsAroundTheLights) {
   }
 }
 
-// A ball without size is its light.
+// A ball of size 0 is a point light.
 TEST(AreaRays, OfPointsAreShadowRays) {
   for (const char* name : {"balls:n=1", "habitacion"}) {
     const scenes::Scene scene = scenes::load_scene(name);
@@ -204,7 +204,7 @@ TEST(MirrorRays, AreTheReflectionRaysOfPlanarMirrors) {
   EXPECT_EQ(fingerprint(by_sample(list)), fingerprint(reflection_rays(points).rays));
 }
 
-// Each light is a pencil and so is each mirror, and all their rays pass through the apex.
+// Each light and each mirror has a pencil whose rays all pass through its apex.
 TEST(PencilsOfLists, AreLightsAndVirtualEyes) {
   for (const char* name : {"habitacion", "teapot:n=4", "gears:n=2", "ajedrez", "closed-room",
                            "gato-bill", "misil", "casa-de-campo"}) {
@@ -330,7 +330,7 @@ TEST(PathRays, EndWhereNothingIsHit) {
 
 TEST(MakeInput, RefusesListsThatWouldExceedMemory) {
   const scenes::Scene scene = floor_and_ceiling(1.0);
-  // Each has slightly more than 2^28 rays: the sizes are checked before the rays are counted.
+  // Each list has slightly more than 2^28 rays; its size is checked before its rays are counted.
   const auto refusal = [&](const char* kind, const Resolution& resolution) {
     return scenes::thrown_message([&] { input_over(scene, kind, resolution); });
   };
@@ -437,7 +437,7 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeCorrect) {
   }
 }
 
-/// A correct result for shadow rays, to be corrupted by the tests.
+/// Correct results for shadow rays, which the tests corrupt.
 class AnyHitAnswers : public ::testing::Test {
  protected:
   AnyHitAnswers() {

@@ -24,7 +24,7 @@ TEST(Noise, IsZeroAtTheLatticeAndStaysInItsRange) {
     least = std::min(least, noise);
     most = std::max(most, noise);
     EXPECT_EQ(gradient_noise(glm::floor(point)), 0.0);
-    // Smooth: a step of 1e-6 changes it by about as much.
+    // The noise is smooth: a step of 1e-6 changes it by about as much.
     EXPECT_NEAR(gradient_noise(point + dvec3(1e-6)), noise, 1e-5);
   }
   EXPECT_LT(most, 1.1);
@@ -62,8 +62,9 @@ TEST(Texture, VariesAboutTheColorOfItsSurface) {
   }
 }
 
-/// Returns the color of a finish at the middle of its scene, where all noise is 0: marble has veins
-/// of (1/2)^6 of the color, wood begins a ring, clouds are a smooth step, granite shows no grain.
+/// Returns the color of a finish in the middle of its scene, where all noise is 0. There, marble
+/// mixes in 1/64 of the vein's color, wood begins a ring, clouds are a smooth step, and granite
+/// shows no grain.
 dvec3 color_in_the_middle(scenes::Finish finish) {
   const dvec3 own(scenes::finished_surface(finish).color);
   const auto marble = [&](const dvec3& vein) { return own + (vein - own) / 64.0; };
@@ -83,7 +84,7 @@ dvec3 color_in_the_middle(scenes::Finish finish) {
     case scenes::Finish::kPineWood:
       return 1.05 * own;
     case scenes::Finish::kClouds: {
-      constexpr double kStep = 3.0 / 14.0;  // where 0 is between -0.15 and 0.55
+      constexpr double kStep = 3.0 / 14.0;  // the position of 0 between -0.15 and 0.55
       return glm::mix(dvec3(0.36, 0.58, 0.9), dvec3(1.0), kStep * kStep * (3.0 - 2.0 * kStep));
     }
     default:

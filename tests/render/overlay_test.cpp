@@ -39,8 +39,8 @@ float share_of(const glm::vec3& color, const Image& image, int x, int y) {
   const glm::vec3 ground = dimmed(kGround);
   return (image.at(x, y).x - ground.x) / (color.x - ground.x);
 }
-/// Returns the sum of a line's shares across a horizontal row of pixels: its thickness, if
-/// vertical.
+/// Returns the sum of a line's shares across a horizontal row of pixels, which is the thickness of
+/// a vertical line.
 float yellow_across(const Image& image, int y, int first, int last) {
   float sum = 0.0F;
   for (int x = first; x <= last; ++x) sum += share_of(okabe_ito::kYellow, image, x, y);
@@ -67,7 +67,7 @@ TEST(Line, CoversPixelsByTheirDistance) {
   EXPECT_EQ(coverage[49], 0.0F);
 }
 
-// The definition: all pixels of the image, each by its center's distance from the segment.
+// By definition, a line visits the pixels whose centers are close enough to the segment.
 RC_GTEST_PROP(Line, VisitsJustThePixelsNearIt, ()) {
   const auto coordinate = [] {
     return *rc::gen::element(1.0, 1.0, 1e4) * (*rc::gen::inRange(-300, 500) / 10.0);
@@ -132,7 +132,7 @@ TEST(OverlayBeams, DrawsEachKindInItsColorAndCounts) {
   EXPECT_TRUE(near(legend[0].color, 30, 15)) << "an occupied beam over one that leaves";
   EXPECT_TRUE(near(legend[1].color, 55, 15)) << "a beam that continues over one that leaves";
   EXPECT_TRUE(near(legend[2].color, 75, 40));
-  EXPECT_TRUE(is_ground(image, 58, 30)) << "where no beam is";
+  EXPECT_TRUE(is_ground(image, 58, 30)) << "no beam covers this pixel";
   EXPECT_FALSE(is_ground(image, 15, 15)) << "ends are tinted";
   EXPECT_NE(image.at(15, 15), image.at(45, 15)) << "each in its color";
   EXPECT_EQ(image.at(45, 15), image.at(75, 50));
@@ -192,8 +192,8 @@ TEST(OverlayCells, NearerCellsHideFartherOnes) {
     }
   }
   const Image apart = picture_of({before, beside});
-  EXPECT_GT(yellow_across(apart, 50, 85, 99), 0.3F) << "what is beside it is seen";
-  EXPECT_LT(yellow_across(apart, 50, 85, 99), 0.9F) << "but paler, being farther";
+  EXPECT_GT(yellow_across(apart, 50, 85, 99), 0.3F) << "the cell beside it is visible";
+  EXPECT_LT(yellow_across(apart, 50, 85, 99), 0.9F) << "but paler, because it is farther";
 }
 
 // Adjacent cells: the edges between them belong to both, and neither hides them.
@@ -207,8 +207,8 @@ TEST(OverlayCells, ACellAroundTheEyeShowsItsEdgesAndHidesNothing) {
   const accel::Box before{{2, -1, -1}, {4, 1, 1}};
   const Image image = picture_of({around, before});
   EXPECT_NEAR(yellow_across(image, 50, 22, 27), 1.0F, 0.01F);
-  // Its far face also spans 25 ... 75 and lies behind the other cell; its edges toward the eye run
-  // from there into the corners of the image.
+  // The far face of the cell around the eye also spans 25 ... 75 and lies behind the other cell.
+  // The edges toward the eye run from this face into the corners of the image.
   EXPECT_GT(share_of(okabe_ito::kYellow, image, 10, 10), 0.9F);
   EXPECT_GT(share_of(okabe_ito::kYellow, image, 90, 9), 0.9F);
   EXPECT_TRUE(is_ground(image, 10, 50));

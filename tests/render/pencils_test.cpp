@@ -1,5 +1,5 @@
-// The pencils of whole pictures: all their rays pass through the apex, and results do not depend on
-// them.
+// The pencils of whole pictures: all rays of a pencil pass through its apex, and results do not
+// depend on pencils.
 
 #include "harness/render/pencils.hpp"
 
@@ -43,7 +43,7 @@ class Unmarked : public accel::ForwardingAccelerator {
   }
 };
 
-/// Checks the marked rays, and forwards them.
+/// Checks the marked rays, and forwards batches without their marks.
 class Checked : public Unmarked {
  public:
   Checked(const accel::Accelerator& structure, tests::CheckedPencils& pencils)
@@ -156,7 +156,7 @@ TEST(Pencils, AreOfAnyDepth) {
   EXPECT_GT(static_cast<double>(pencils.toward), 0.9 * static_cast<double>(picture.census.shadow));
 }
 
-// Rays that planar glass refracts are marked, and no others, also behind several planes of glass.
+// Exactly the rays that planar glass refracts are marked, even behind several planes of glass.
 TEST(RefractedRays, AreThoseBehindPlanarGlass) {
   class Counted : public Unmarked {
    public:
@@ -259,7 +259,8 @@ Worked drawn(const scenes::Scene& scene, const char* spec, const WhittedOptions&
   return {std::move(picture), counted.work().counters.by_name()};
 }
 
-// The thesis's beams through mirrors seen in mirrors: the picture of single rays, bit for bit.
+// The thesis's beams, reflected by mirrors seen in mirrors, give the picture of single rays, bit
+// for bit.
 TEST(Pencils, AreBeamsOfAnyDepth) {
   const scenes::Scene scene = mirror_room();
   std::uint64_t beams_before = 0;
@@ -289,8 +290,9 @@ int visibly_different(const Image& a, const Image& b) {
   return count;
 }
 
-// If a structure's pencils are correct within tolerance, other rays follow, so each of its pictures
-// is verified with its own rays. The pictures differ in a few places where rays graze edges.
+// If hits of pencils are correct only within a tolerance, the rays that follow them differ, so each
+// picture is verified with its own rays. The pictures differ in a few places where rays graze
+// edges.
 TEST(Pencils, OfTolerantStructuresGiveTheSamePictureExceptForGrazes) {
   std::vector<scenes::Scene> all;
   all.push_back(mirror_room());

@@ -298,8 +298,10 @@ TEST(CategoryMap, ColorsItsPixelsAndDimsTheOthersToGray) {
   EXPECT_GT(picture.height(), 40 + 2 * kGlyphHeight);
   EXPECT_EQ(picture.at(50, 0), map.categories[0].color);
   EXPECT_EQ(picture.at(60, 20), map.categories[1].color);
-  EXPECT_EQ(picture.at(65, 20), map.categories[1].color) << "the frame of a pixel hard to find";
-  EXPECT_NE(picture.at(50, 5), map.categories[0].color) << "no frames where there are many";
+  EXPECT_EQ(picture.at(65, 20), map.categories[1].color)
+      << "the frame of a pixel that is hard to find";
+  EXPECT_NE(picture.at(50, 5), map.categories[0].color)
+      << "no frames in a category with many pixels";
   const glm::vec3 gray = picture.at(10, 30);
   EXPECT_EQ(gray.x, gray.y);
   EXPECT_EQ(gray.y, gray.z);

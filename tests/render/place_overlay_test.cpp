@@ -52,7 +52,7 @@ TEST(OverlayTiles, DrawsOutlinesAndAMesh) {
   EXPECT_EQ(count_of(legend, "tiles"), 2U);
   EXPECT_EQ(count_of(legend, "rays in blocks"), 64U);
   EXPECT_EQ(count_of(legend, "passed on to single rays"), 0U);
-  EXPECT_EQ(count_of(legend, "background without rays"), 0U);
+  EXPECT_EQ(count_of(legend, "background, no rays"), 0U);
   for (int y = 0; y < 4; ++y) {
     EXPECT_EQ(image.at(8, y), okabe_ito::kYellow) << "where a tile begins";
     EXPECT_EQ(image.at(4, y), image.at(12, y)) << "where a block begins";
@@ -72,7 +72,7 @@ TEST(OverlayTiles, EachMethodHasItsColor) {
   const auto legend = overlay_tiles(image, {places, numbers(places.size()), 1});
   EXPECT_EQ(count_of(legend, "rays in blocks"), 31U);
   EXPECT_EQ(count_of(legend, "passed on to single rays"), 1U);
-  EXPECT_EQ(count_of(legend, "background without rays"), 32U);
+  EXPECT_EQ(count_of(legend, "background, no rays"), 32U);
   EXPECT_EQ(image.at(2, 0), okabe_ito::kVermillion);
   EXPECT_NE(image.at(2, 1), image.at(10, 1));
 }

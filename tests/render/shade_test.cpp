@@ -97,7 +97,7 @@ RC_GTEST_PROP(GeometricNormal, OfABentPolygonIsThatOfTheTriangleHit, ()) {
   const glm::dvec3 point = point_at(ray, *hit);
   const glm::dvec3 normal = rays::geometric_normal(scene, ray, *hit);
   require_unit_and_facing(normal, ray);
-  // The point lies in the plane through a corner of its triangle with that normal.
+  // With this normal, the plane through a corner of the triangle contains the point.
   int planes = 0;
   for (const scenes::Triangle& triangle : scene.triangles) {
     bool contains = true;
@@ -119,7 +119,7 @@ TEST(ShadingNormal, OfASmoothPolygonRunsBetweenItsCorners) {
   const accel::Hit hit = shoot(scene, ray).value();
   EXPECT_NEAR(glm::length(rays::geometric_normal(scene, ray, hit) - glm::dvec3(0, 0, 1)), 0.0,
               1e-6);
-  // Halfway to the corner whose normal is tilted by 45 degrees.
+  // The point is halfway to the corner whose normal is tilted by 45 degrees.
   const double s = std::sqrt(0.5);
   const glm::dvec3 expected = glm::normalize(glm::dvec3(0.5 * s, 0.0, 0.5 + 0.5 * s));
   EXPECT_NEAR(glm::length(rays::shading_normal(scene, ray, hit) - expected), 0.0, 1e-6);

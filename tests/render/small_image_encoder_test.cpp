@@ -21,7 +21,7 @@ extern "C" void beambench_encode_image(const std::string& file, const StoredImag
 
 namespace {
 
-/// Encodes an image, writes it, and opens the file by OpenImageIO.
+/// Encodes an image, writes it, and opens the file with OpenImageIO.
 std::unique_ptr<OIIO::ImageInput> written(const TemporaryFolder& folder, const std::string& name,
                                           const StoredImage& image) {
   EncodedImage encoded;

@@ -39,7 +39,7 @@ class CountedCalls : public accel::ForwardingAccelerator {
   void note(const accel::RaySource& rays) const {
     if (rays.ray() != nullptr) ++single;
     if (rays.batch() == nullptr) return;
-    EXPECT_GT(rays.size(), 0U) << "nothing was asked for";
+    EXPECT_GT(rays.size(), 0U) << "a query has no rays";
     ++batches;
     largest = std::max(largest, rays.size());
   }
@@ -164,7 +164,7 @@ TEST(Waves, KeepBatchesSmall) {
   for (const glm::dvec3& color : colors) ASSERT_EQ(color, colors.front());
 }
 
-// SIMD returns the same bits as glm on every instruction set.
+// On every instruction set, SIMD code returns the same bits as glm.
 TEST(Places, MatchSingleRays) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));

@@ -88,7 +88,7 @@ TEST(Whitted, TwoMirrorsEndAtTheDepth) {
     light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress);
     EXPECT_EQ(progress.census.reflected, static_cast<std::uint64_t>(depth - 1));
   }
-  // The third ray is a quarter of the pixel, the fourth an eighth.
+  // The third ray contributes a quarter of the pixel, the fourth an eighth.
   const Whitted tracer(scene, *structure, {.max_depth = 6, .min_weight = 0.2});
   Whitted::Progress progress = tracer.begin();
   accel::Ray ray;
@@ -268,8 +268,9 @@ TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {
   const dvec3 leaning(-0.6, 0.0, 0.8);
   builder.add_polygon(corners, std::array<dvec3, 3>{leaning, leaning, leaning});
   const scenes::Scene scene = std::move(builder).build();
-  // 75 degrees from the plane's normal and 38 from the shading normal. For the latter, Snell's law
-  // yields an upward direction; for the plane's own normal it yields none: all light is reflected.
+  // The ray is 75 degrees from the plane's normal and 38 from the shading normal. For the latter,
+  // Snell's law yields an upward direction. For the plane's normal it has no solution, so all light
+  // is reflected.
   const auto structure = built(scene, "exhaustive");
   const Whitted tracer(scene, *structure, WhittedOptions{});
   Whitted::Progress progress = tracer.begin();

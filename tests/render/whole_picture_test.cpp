@@ -33,14 +33,14 @@ accel::StructureChoice choice(const std::string& spec) {
   return accel::registry().choose(parse_spec(spec));
 }
 
-/// Traces a structure as a contender does; returns the verification of its results.
+/// Traces with a structure as a sweep does with a contender; returns the verification of the hits.
 verify::DiffReport verified(measure::Task& task, const std::string& spec) {
   const auto structure = choice(spec).build(task.scene());
   task.poison();
   task.trace(*structure);
   const std::uint64_t timed = task.fingerprint();
   verify::DiffReport report = task.verify_results(*structure, choice(spec)).report;
-  EXPECT_EQ(task.fingerprint(), timed) << "what is verified is what was timed";
+  EXPECT_EQ(task.fingerprint(), timed) << "the verified results differ from the timed ones";
   return report;
 }
 
@@ -84,7 +84,7 @@ TEST(WholePicture, CountsWorkByKindOfRays) {
   EXPECT_EQ(work.kinds[1].rays, census.reflected);
   EXPECT_EQ(work.kinds[2].rays, census.refracted);
   EXPECT_EQ(work.kinds[3].rays, census.shadow);
-  // Each ray of these meets all primitives.
+  // Exhaustive search tests each of these rays against all primitives.
   const std::uint64_t primitives = task->scene().primitives.size();
   std::uint64_t tests = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -117,7 +117,7 @@ TEST(WholePicture, ItsFactsMatchTheOraclesPicture) {
             facts.rays_hash);
 }
 
-/// `exhaustive`, with occasional errors, but only when it traces single rays.
+/// `exhaustive` with occasional errors, which it makes only when it traces single rays.
 class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
  public:
   enum class In { kClosest, kAny };

@@ -142,7 +142,7 @@ TEST(Animation, InvalidCoordinatesAreRefusedWithFrameAndPrimitive) {
     pose.spheres[0].center.z = number;
     EXPECT_TRUE(says(thrown_message([&] { set_pose(scene, pose, 6); }),
                      {"two: frame 6: primitive 1: its center is (3, 0, "}));
-    EXPECT_EQ(scene_hash(scene), hash) << "as before";
+    EXPECT_EQ(scene_hash(scene), hash) << "the scene is unchanged";
   }
 }
 

@@ -253,7 +253,7 @@ RC_GTEST_PROP(PrimitiveBounds, OfASphereAreTheTightestOutside, (std::uint64_t se
   const Scene scene = std::move(builder).build();
   const Sphere sphere = scene.spheres[0];
   for (int axis = 0; axis < 3; ++axis) {
-    // Here, 64 bits of mantissa are exact for all but the most unequal operands.
+    // The 64-bit mantissa makes these sums exact for all but the most unequal operands.
     const long double low = static_cast<long double>(sphere.center[axis]) - sphere.radius;
     const long double high = static_cast<long double>(sphere.center[axis]) + sphere.radius;
     RC_ASSERT(scene.bounds.lower[axis] <= low);

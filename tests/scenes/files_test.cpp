@@ -53,7 +53,7 @@ TEST(Input, AByteOrderMarkOfATextIsSkipped) {
   const fs::path file = folder.write("a", "\xEF\xBB\xBFone\n\xEF\xBB\xBFtwo");
   EXPECT_EQ(read_text_input(file, kLargestFile), "one\n\xEF\xBB\xBFtwo");
   EXPECT_EQ(read_input(file, kLargestFile), "\xEF\xBB\xBFone\n\xEF\xBB\xBFtwo")
-      << "bytes are not a text";
+      << "bytes are not text";
   InputStream lines(file);
   EXPECT_EQ(lines.line(), "one");
   EXPECT_EQ(lines.line(), "\xEF\xBB\xBFtwo");
@@ -67,7 +67,7 @@ TEST(Input, IsReadWhole) {
   EXPECT_EQ(read_input(folder.write("empty", ""), 0), "");
   EXPECT_EQ(read_input("/dev/null", 0), "");
   EXPECT_FALSE(read_input("/proc/self/status", kLargestFile).empty())
-      << "a file that names no length";
+      << "a file that does not report its length";
 }
 
 TEST(Input, ComesThroughPipes) {
@@ -92,7 +92,7 @@ TEST(Input, TruncatedByAnInputErrorIsRefused) {
   EXPECT_TRUE(says(thrown_message([] { read_input("/proc/self/mem", kLargestFile); }),
                    {"/proc/self/mem: cannot be read: Input/output error"}));
   const HungUpTerminal terminal("s 0 0 0 1\n");
-  if (!terminal.works()) GTEST_SKIP() << "no pseudo terminals here";
+  if (!terminal.works()) GTEST_SKIP() << "this system has no pseudoterminals";
   EXPECT_TRUE(
       says(thrown_message([&] { read_input(terminal.descriptor(), "a.nff", kLargestFile); }),
            {"a.nff: cannot be read: Input/output error"}));
@@ -145,7 +145,7 @@ TEST(Output, IsInvisibleUntilItIsComplete) {
     throw InputError("half way");
   };
   EXPECT_THROW(write_file(target, fail_half_way), InputError);
-  EXPECT_EQ(read_text(target), "old") << "what is not finished changes nothing";
+  EXPECT_EQ(read_text(target), "old") << "unfinished output changes nothing";
   write_file(target, "new");
   EXPECT_EQ(read_text(target), "new");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);

@@ -107,7 +107,7 @@ TEST(Catalogue, SceneHashesArePinned) {
   for (const SceneInfo& info : scene_catalogue()) {
     ASSERT_TRUE(hashes.contains(info.name)) << "pin the hash of " << info.name;
     EXPECT_EQ(scene_hash(load_scene(info.name)), hashes.at(info.name))
-        << info.name << " is no longer the scene it was: published results no longer compare";
+        << info.name << " has changed: published results are no longer comparable";
   }
 }
 
@@ -189,7 +189,7 @@ std::set<Corner> tetrahedron(const Corner& c, double w) {
 TEST(Tetra, CoordinatesFollowTheDefinition) {
   for (const int n : {1, 2}) {
     const Scene scene = load_scene("tetra:n=" + std::to_string(n));
-    std::multiset<std::set<Corner>> expected;  // of each leaf, all four corners
+    std::multiset<std::set<Corner>> expected;  // the four corners of each leaf
     if (n == 1) {
       expected.insert(tetrahedron({0, 0, 0}, 1.0));
     } else {
@@ -259,7 +259,7 @@ TEST(Balls, FirstChildrenStandAtTheirAzimuthAndElevation) {
 }
 
 TEST(Balls, GrandchildrenFollowTheSmallestRotationFromZ) {
-  // The three upper children of a child are at an angle to its equator whose sine is sqrt(2/3).
+  // The three upper children of a child lie above its equator, at an angle with sine sqrt(2/3).
   const Scene scene = load_scene("balls:n=2");
   std::size_t next = 0;
   glm::dvec3 axis(0.0, 0.0, 1.0);
@@ -297,7 +297,7 @@ TEST(Escena1, FillsItsVolumeEvenlyWithDisjointSpheres) {
   EXPECT_GT(largest->radius, 2.0F * least->radius);
 }
 
-// The positions found by a plain search for the nearest ball, before the grid was introduced.
+// These hashes date from before the grid, when a plain search found the nearest ball.
 TEST(Escena1, IsUnchangedByItsGrid) {
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=7")), 0x2a7353dd7127c1eaU);
   EXPECT_EQ(scene_hash(load_scene("escena1:spheres=2000")), 0xc0a046104b83e4feU);

@@ -55,7 +55,7 @@ std::vector<Face> glass_faces(const Scene& scene) {
   return faces;
 }
 
-/// Returns how far a point in a convex face's plane is inside its edges; negative outside.
+/// Returns how far inside its edges a point in a convex face's plane is; negative outside.
 double depth_inside(const Face& face, const dvec3& point) {
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < face.places.size(); ++i) {
@@ -65,7 +65,7 @@ double depth_inside(const Face& face, const dvec3& point) {
   return depth;
 }
 
-/// Returns whether a segment passes through a convex face, or a point of it is within `margin`.
+/// Returns whether a segment passes through a convex face or comes within `margin` of it.
 bool meets(const Face& face, const dvec3& a, const dvec3& b, double margin) {
   const double from = glm::dot(face.normal, a - face.places[0]);
   const double to = glm::dot(face.normal, b - face.places[0]);
@@ -92,7 +92,8 @@ TEST_P(GlassScenes, HaveClosedBodiesThatFaceOutward) {
   for (const auto& [edge, f] : face_of) {
     const auto other = face_of.find({edge.second, edge.first});
     ASSERT_NE(other, face_of.end()) << "an edge belongs to one face only";
-    for (const dvec3& place : faces[other->second].places) {  // convex, hence outward
+    for (const dvec3& place :
+         faces[other->second].places) {  // holds for outward faces of a convex body
       EXPECT_LE(glm::dot(faces[f].normal, place - faces[f].places[0]), 1e-6);
     }
   }
@@ -160,7 +161,7 @@ TEST(Prism, HasTwoBodiesThatStandApart) {
         return glm::dot(separating.normal, place - separating.places[0]) > 0.1;
       });
     });
-  })) << "no face of the plate separates the two";
+  })) << "no face of the plate separates the two bodies";
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, GlassScenes, testing::Values("aquarium", "prism"),

@@ -104,7 +104,7 @@ TEST_F(GltfAnimations, ANodeMovesAndTurnsAtTwentyFourFramesPerSecond) {
   expect_near(third[1], {2 + 0.5F, std::sqrt(0.75F), 1});
   const auto last = corners(file, 24);
   expect_near(last[1], {5, 0, 3});
-  EXPECT_EQ(corners(file, 12), middle) << "from the cache, too";
+  EXPECT_EQ(corners(file, 12), middle) << "the same from the cache";
 }
 
 TEST_F(GltfAnimations, ChildrenMoveWithTheirParentAndOthersStay) {
@@ -138,8 +138,8 @@ TEST_F(GltfAnimations, StepsHoldAndSplinesFollowTheirTangents) {
   expect_near(corners(step, 12)[0], {1, 0, 0});
   expect_near(corners(step, 24)[0], {2, 0, 0});
 
-  // From 0 to 1 in 2 s, leaving at 1 per second and arriving at 0: at the middle, h01 = 1/2 and
-  // h10 = 1/8 of the 2 s.
+  // From 0 to 1 in 2 s, starting at 1 per second and arriving at 0 per second. In the middle,
+  // h01 = 1/2, and h10 = 1/8, which is multiplied by the 2 s.
   GltfFile spline = gltf_triangle();
   add_channel(spline, 0, "translation", {0.0F, 2.0F},
               {9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 9, 9, 9}, "CUBICSPLINE");
@@ -155,7 +155,7 @@ TEST_F(GltfAnimations, StepsHoldAndSplinesFollowTheirTangents) {
 }
 
 TEST_F(GltfAnimations, RotationsTakeTheShorterWay) {
-  GltfFile file = gltf_triangle();  // to 90 degrees about z, whose quaternion is given negated
+  GltfFile file = gltf_triangle();  // turns to 90 degrees about z, given as a negated quaternion
   add_channel(file, 0, "rotation", {0.0F, 1.0F}, {0, 0, 0, 1, 0, 0, -kHalf, -kHalf});
   const float part = static_cast<float>(std::numbers::pi) / 4.0F;
   expect_near(corners(file, 12)[1], {std::cos(part), std::sin(part), 0});
@@ -278,13 +278,13 @@ TEST_F(GltfAnimations, ARefusalNamesTheChannelOrSampler) {
     return message(file);
   };
   EXPECT_TRUE(
-      says(changed("/samplers/0/input", 77), {"sampler 0 of animation 0 names the accessor 77"}));
+      says(changed("/samplers/0/input", 77), {"sampler 0 of animation 0 refers to accessor 77"}));
   EXPECT_TRUE(says(changed("/samplers/0/output", 1),
-                   {"accessor 1 of sampler 0 of animation 0 is not of the type"}));
+                   {"accessor 1 of sampler 0 of animation 0 does not have the required type"}));
   EXPECT_TRUE(
-      says(changed("/channels/0/sampler", 3), {"channel 0 of animation 0 names the sampler 3"}));
+      says(changed("/channels/0/sampler", 3), {"channel 0 of animation 0 refers to sampler 3"}));
   EXPECT_TRUE(
-      says(changed("/channels/0/target/node", 9), {"channel 0 of animation 0 names the node 9"}));
+      says(changed("/channels/0/target/node", 9), {"channel 0 of animation 0 refers to node 9"}));
 
   GltfFile twice = gltf_triangle();
   add_channel(twice, 0, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
@@ -307,7 +307,7 @@ TEST_F(GltfAnimations, ARefusalNamesTheSkin) {
                    {"skin 0 has 3 joints, but 2 inverse bind matrices"}));
   EXPECT_TRUE(says(changed("/skins/0/joints", {1}), {"has the joint 1, but there are 1"}));
   EXPECT_TRUE(says(changed("/skins/0/inverseBindMatrices", 0), {"accessor 0 of skin 0"}));
-  EXPECT_TRUE(says(changed("/nodes/0/skin", 4), {"a node names the skin 4"}));
+  EXPECT_TRUE(says(changed("/nodes/0/skin", 4), {"a node refers to skin 4"}));
   GltfFile bare = with_skin();
   bare.json["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_0");
   EXPECT_TRUE(says(message(bare), {"JOINTS_0 and WEIGHTS_0"}));

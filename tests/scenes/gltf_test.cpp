@@ -223,12 +223,12 @@ TEST_F(Gltf, TheDefaultSceneIsRead) {
   file.json["scene"] = 1;
   EXPECT_EQ(triangles_of(read(file))[0][0].x, 5.0F);
   file.json.erase("scene");
-  EXPECT_EQ(read(file).mesh.triangles.size(), 1U) << "the first, where no default is named";
+  EXPECT_EQ(read(file).mesh.triangles.size(), 1U) << "the first scene, because no default is named";
   file.json.erase("scenes");
-  EXPECT_EQ(read(file).mesh.triangles.size(), 2U) << "all nodes, where there is no scene";
+  EXPECT_EQ(read(file).mesh.triangles.size(), 2U) << "all nodes, because there is no scene";
   file.json["scenes"] = Json::array({{{"nodes", {0}}}});
   file.json["scene"] = 9;
-  EXPECT_TRUE(says(message(file), {"the file names the scene 9", "has 1 of them"}));
+  EXPECT_TRUE(says(message(file), {"the file refers to scene 9", "has only 1"}));
 }
 
 TEST_F(Gltf, NodesMayBeNestedDeeplyButNotInACircle) {
@@ -274,8 +274,8 @@ TEST_F(Gltf, CamerasAreThoseOfTheScene) {
 
   const Scene scene = load_scene(folder_.write("a.glb", glb(file)).string());
   EXPECT_EQ(scene.cameras.front().name, "my _eye") << "the first is the default";
-  EXPECT_EQ(find_camera(scene, "front").name, "front") << "fitted ones stay";
-  EXPECT_EQ(scene.lights.size(), 2U) << "a file without lights gets ours";
+  EXPECT_EQ(find_camera(scene, "front").name, "front") << "fitted cameras remain";
+  EXPECT_EQ(scene.lights.size(), 2U) << "a file without lights gets the default lights";
 }
 
 TEST_F(Gltf, NamesOfCamerasAreDistinct) {
@@ -337,9 +337,9 @@ TEST_F(Gltf, LightsAreAsBrightAsAtTheCenterOfTheScene) {
   EXPECT_NEAR(mesh.lights[1].color.z, share, 1e-6);
   EXPECT_NEAR(mesh.lights[2].color.x, share, 1e-6);
   EXPECT_EQ(mesh.lights[0].position, glm::vec3(0.5F, 0.5F, 5.0F));
-  EXPECT_GT(mesh.lights[2].position.x, 500.0F) << "its light travels to -z, turned to -x";
+  EXPECT_GT(mesh.lights[2].position.x, 500.0F) << "the light travels along -z, turned to -x";
   ASSERT_EQ(mesh.warnings.size(), 1U);
-  EXPECT_TRUE(says(mesh.warnings[0], {"1 spot lights shine to all sides"}));
+  EXPECT_TRUE(says(mesh.warnings[0], {"1 spot lights shine in all directions"}));
   EXPECT_EQ(load_scene(folder_.write("a.glb", glb(file)).string()).lights.size(), 3U);
 }
 
@@ -424,11 +424,11 @@ TEST_F(Gltf, ARefusalStatesTheReason) {
   refused([](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 7; },
           {"primitive 0 of mesh 0", "mode 7"});
   refused([](Json& j) { j["meshes"][0]["primitives"][0]["material"] = 2; },
-          {"a primitive names the material 2"});
+          {"a primitive refers to material 2"});
   refused([](Json& j) { j["accessors"][1]["count"] = 2; },
           {"primitive 0 of mesh 0", "2 corners", "multiple of 3"});
-  refused([](Json& j) { j["nodes"][0]["mesh"] = 5; }, {"a node names the mesh 5"});
-  refused([](Json& j) { j["nodes"][0]["children"] = {12}; }, {"the node 12"});
+  refused([](Json& j) { j["nodes"][0]["mesh"] = 5; }, {"a node refers to mesh 5"});
+  refused([](Json& j) { j["nodes"][0]["children"] = {12}; }, {"refers to node 12"});
   refused([](Json& j) { j["nodes"][0]["matrix"] = {1, 2, 3}; }, {"node 0 has a matrix of 3"});
   refused([](Json& j) { j["nodes"][0]["translation"] = {1e10, 0, 0}; }, {"coordinate", "1e9"});
   refused([](Json& j) { j["nodes"][0].erase("mesh"); }, {"no triangle is in it", "no faces"});
@@ -496,7 +496,7 @@ TEST_F(Gltf, BuffersAreReadOnlyFromItsFolder) {
   for (const std::string& uri :
        {"file://" + absolute, "file:" + absolute, std::string("file:///etc/passwd")}) {
     EXPECT_TRUE(says(thrown_message([&] { load(uri); }), {"a.gltf", "No such file or directory"}))
-        << "a name like any other, in its folder: " << uri;
+        << "an ordinary name, looked up in the file's folder: " << uri;
   }
   ASSERT_EQ(::mkfifo((folder_.path() / "in" / "pipe.bin").c_str(), 0600), 0);
   EXPECT_TRUE(says(thrown_message([&] { load("pipe.bin"); }), {"a.gltf", "not a regular file"}));
@@ -504,7 +504,7 @@ TEST_F(Gltf, BuffersAreReadOnlyFromItsFolder) {
                    {"a.gltf", "none.bin", "No such file or directory"}));
   fs::resize_file(folder_.write("in/large.bin", ""), std::uint64_t{4} << 30U);
   EXPECT_TRUE(says(thrown_message([&] { load("large.bin"); }), {"a.gltf", "more than 4 GiB"}))
-      << "the file itself counts, too";
+      << "the file's own size counts, too";
   folder_.write("in/short.bin", file.buffer.substr(0, 20));
   EXPECT_TRUE(says(thrown_message([&] { load("short.bin"); }), {"a.gltf", "size mismatch"}));
 }
@@ -621,7 +621,7 @@ TEST_F(Gltf, ADamagedFileIsReadOrRefused) {
     std::string damaged = files[random.below(2)];
     for (auto changes = 1 + random.below(4); changes > 0; --changes) {
       char& c = damaged[random.below(damaged.size())];
-      // Digits as often as bytes: they change indices and counts.
+      // Digits are as frequent as other bytes because they change indices and counts.
       c = random.unit() < 0.5 ? static_cast<char>('0' + random.below(10))
                               : static_cast<char>(random.below(256));
     }

@@ -22,7 +22,7 @@ inline mesh::ImportedMesh imported(const std::string& bytes, const std::string& 
   return mesh::import_mesh(bytes, ending, "a." + ending);
 }
 
-/// Returns the message that refuses the file; "(nothing thrown)" if it is accepted.
+/// Returns the message with which the file is refused; "(nothing thrown)" if it is accepted.
 inline std::string refusal(const std::string& bytes, const std::string& ending) {
   return thrown_message([&] { imported(bytes, ending); });
 }

@@ -7,7 +7,7 @@
 
 namespace beambench::scenes {
 
-/// Returns corners (0,0,0), (1,0,0), (0,2,0), (0,0,3).
+/// These functions return the tetrahedron with corners (0,0,0), (1,0,0), (0,2,0), (0,0,3).
 std::string tetrahedron_obj();
 std::string tetrahedron_off();
 std::string tetrahedron_ply();
@@ -17,14 +17,14 @@ std::string tetrahedron_binary_stl();
 std::string tetrahedron_gltf();
 std::string tetrahedron_ac();
 
-/// Returns all of them, with file names.
+/// Returns the tetrahedron in all formats, with file names.
 std::vector<std::pair<std::string, std::string>> tetrahedron_files();
 
 std::string base64(const std::string& bytes);
 
-/// Returns the text with another first coordinate for the corner (1, 0, 0).
+/// Returns the text with `number` as the first coordinate of the corner (1, 0, 0).
 std::string with_coordinate(std::string text, const std::string& number);
-/// Returns the text with its first `old` replaced.
+/// Returns the text with the first occurrence of `old` replaced.
 std::string with_count(std::string text, const std::string& old, const std::string& by);
 
 }  // namespace beambench::scenes

@@ -74,7 +74,7 @@ std::string gzipped(const std::string& text, const fs::path& path) {
 void expect_tetrahedron(const Scene& scene) {
   EXPECT_EQ(scene.polygons.size(), 4U);
   EXPECT_EQ(scene.primitives.size(), 4U);
-  EXPECT_EQ(scene.vertices.size(), 4U) << "vertices at the same place must be one";
+  EXPECT_EQ(scene.vertices.size(), 4U) << "vertices at the same place must be merged";
   EXPECT_EQ(scene.bounds.extent(), glm::vec3(1.0F, 2.0F, 3.0F));
   EXPECT_FALSE(scene.lights.empty());
 }
@@ -197,7 +197,7 @@ TEST_F(Meshes, NothingUnpacksToNothing) {
                    {"packed.ply.gz", "unpacks to an empty file"}));
 }
 
-/// 400 MiB of one byte.
+/// The file unpacks to 400 MiB of the same byte.
 TEST_F(Meshes, ExcessiveCompressionRatiosAreRefusedEarly) {
   const fs::path path = folder_.path() / "bomb.ply.gz";
   const gzFile file = ::gzopen(path.c_str(), "wb");
@@ -245,8 +245,8 @@ TEST(ImportLimits, GrowWithTheFileUpToTheAvailableMemory) {
   ::unsetenv("BEAMBENCH_MEMORY");
 }
 
-/// Any file becomes a scene or is refused, even if Assimp crashes. Seeded, without RapidCheck: some
-/// damage keeps Assimp busy until its time is up.
+/// Any file becomes a scene or is refused, even if Assimp crashes. The damage is drawn with fixed
+/// seeds instead of RapidCheck because some damage keeps Assimp busy until its time is up.
 TEST_F(Meshes, DamagedFilesAreRefusedOrRead) {
   const auto files = tetrahedron_files();
   Random random(1999);
@@ -276,9 +276,9 @@ TEST_F(Meshes, AreTheSameFromTheCache) {
   const Scene second = load_scene(path);
   EXPECT_EQ(scene_hash(first), scene_hash(second));
   EXPECT_EQ(first.cameras.front().from, second.cameras.front().from);
-  EXPECT_EQ(fs::last_write_time(cached()[0]), written) << "it was read a second time";
+  EXPECT_EQ(fs::last_write_time(cached()[0]), written) << "the file was imported a second time";
   const Scene other = load_scene(write("a.obj", tetrahedron_obj() + "f 1 3 2\n"));
-  EXPECT_EQ(other.polygons.size(), 5U) << "another file of the same name is another mesh";
+  EXPECT_EQ(other.polygons.size(), 5U) << "a different file of the same name is a different mesh";
 }
 
 TEST_F(Meshes, AreReadAgainWhenTheirMaterialsChange) {
@@ -319,8 +319,8 @@ TEST_F(Meshes, DamagedCacheFilesAreDetectedAndReplaced) {
   std::ofstream(file, std::ios::binary) << older;
   std::vector<std::string> warnings;
   EXPECT_EQ(scene_hash(load_scene(path, &warnings)), hash);
-  EXPECT_TRUE(warnings.empty()) << "an earlier version wrote it";
-  EXPECT_EQ(cached().size(), 1U) << "nothing is left beside it";
+  EXPECT_TRUE(warnings.empty()) << "a cache file of an earlier version causes no warning";
+  EXPECT_EQ(cached().size(), 1U) << "the earlier file is removed";
 }
 
 TEST_F(Meshes, LoadWithoutACache) {

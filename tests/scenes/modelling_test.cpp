@@ -71,8 +71,8 @@ TEST(BeveledBox, IsClosedAndLosesItsEdges) {
   const modelling::PolygonMesh mesh = modelling::beveled_box({0, 0, 0}, {2, 2, 2}, 0.1);
   EXPECT_EQ(mesh.size(), 26U);
   EXPECT_TRUE(is_closed(mesh));
-  // 12 prisms of half a square's area over the inner length, and at each corner a cube of the bevel
-  // without the tetrahedron that remains.
+  // The bevels cut off 12 prisms with half a square as their base over the inner length, and at
+  // each corner a cube without the tetrahedron that remains of it.
   const double edges = 12.0 * 0.5 * 0.01 * 1.8;
   const double corners = 8.0 * 0.001 * (5.0 / 6.0);
   EXPECT_NEAR(volume(mesh), 8.0 - edges - corners, 1e-12);
@@ -202,7 +202,7 @@ TEST(Welded, DropsDegeneratePolygons) {
       4U);
 }
 
-/// Returns a closed mesh of quads and triangles with `sides` around.
+/// Returns a closed mesh of quads and triangles with `sides` faces around its axis.
 modelling::PolygonMesh vase(int sides) { return modelling::lathe(kVase, sides); }
 
 RC_GTEST_PROP(Subdivided, HasTheExactCountOnTheSameSurface, ()) {
@@ -236,7 +236,7 @@ TEST(Subdivided, RefusesFewerThanExist) {
   EXPECT_THROW(modelling::subdivided_to(modelling::box({0, 0, 0}, {1, 1, 1}), 5),
                std::invalid_argument);
   EXPECT_THROW(modelling::subdivided_to(modelling::PolygonMesh{}, 1), std::invalid_argument);
-  // The value that a negative difference becomes.
+  // A negative difference becomes this value.
   EXPECT_THROW(modelling::subdivided_to(modelling::box({0, 0, 0}, {1, 1, 1}), std::size_t{0} - 1),
                std::invalid_argument);
 }

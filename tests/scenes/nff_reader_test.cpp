@@ -58,7 +58,8 @@ TEST(NffReader, ReadsOneOfEverything) {
   EXPECT_EQ(scene.polygons[0].first_normal, Polygon::kFlat);
   ASSERT_NE(scene.polygons[1].first_normal, Polygon::kFlat);
   EXPECT_EQ(scene.normals[1], glm::vec3(0, 1, 1));
-  EXPECT_EQ(scene.normals[2], glm::vec3(0, 0, 1)) << "a normal of 0 is the polygon's own";
+  EXPECT_EQ(scene.normals[2], glm::vec3(0, 0, 1))
+      << "a normal of length 0 is replaced by the polygon's own";
 
   const Surface& surface = scene.surfaces[scene.primitives[1].surface];
   EXPECT_EQ(surface.color, glm::vec3(1.0F, 0.9F, 0.7F));
@@ -140,7 +141,7 @@ TEST(Finish, EachHasItsWordAndItsNumbers) {
   EXPECT_GT(finished_surface(Finish::kGlass).refraction_index, 1.0F);
 }
 
-/// Other programs' words before, between and after commands that must still be read.
+/// Uses words of other programs before, between and after commands, which must still be read.
 class PrivateWord : public testing::TestWithParam<const char*> {};
 
 TEST_P(PrivateWord, IsSkippedAndReportedOnce) {
@@ -187,7 +188,7 @@ TEST(NffReader, DefaultsAreBlackBehindWhiteLights) {
 }
 
 TEST(NffReader, NumbersAreRoundedOnce) {
-  // Via double, 7.038531e-26 becomes the next float: double rounding at a tie.
+  // Via double, 7.038531e-26 would become the next float, because of double rounding at a tie.
   const Scene scene = parse("s 7.038531e-26 1.5e-005 1E+004 2.5e000\ns 0 1e-60 -.0 1\n").scene;
   EXPECT_EQ(scene.spheres[0].center, glm::vec3(7.038531e-26F, 1.5e-5F, 1e4F));
   EXPECT_EQ(scene.spheres[0].radius, 2.5F);
@@ -209,7 +210,7 @@ TEST(NffReader, DegeneratePrimitivesAreSkippedAndCounted) {
   const nff::NffResult result = parse(text);
   ASSERT_EQ(result.scene.primitives.size(), 2U);
   EXPECT_EQ(result.scene.spheres[1].radius, 2.0F);
-  EXPECT_TRUE(result.scene.vertices.empty()) << "of a skipped polygon nothing is left";
+  EXPECT_TRUE(result.scene.vertices.empty()) << "a skipped polygon leaves no vertices";
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_TRUE(says(result.warnings[0], {"test.nff:2: ", "degenerate", "skipped",
                                         "polygon (primitive 1)", "no area", "(and 5 more)"}));
@@ -245,7 +246,7 @@ TEST(NffReader, AreaLightsBecomePointsInFrontOfTheirCenters) {
   const std::vector<Light>& lights = result.scene.lights;
   ASSERT_EQ(lights.size(), 3U);
   EXPECT_EQ(lights[0].color, glm::vec3(5, 4, 3));
-  // x edge cross z edge points down: the lamp in a ceiling shines into the room.
+  // The cross product of the x and z edges points down: a lamp in the ceiling lights the room.
   EXPECT_EQ(lights[0].position, glm::vec3(5.0F, 9.996F, 8.0F));
   EXPECT_EQ(lights[1].color, glm::vec3(1.0F));
   EXPECT_EQ(lights[1].position, glm::vec3(0.5F, 0.5F, 0.001F));
@@ -265,7 +266,7 @@ TEST(NffReader, AnimatedLightsStayAtTheirFirstPosition) {
   EXPECT_EQ(lights[1].position, glm::vec3(1, 2, 3));
   EXPECT_EQ(lights[1].color, glm::vec3(.5F, .25F, 1));
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_TRUE(says(result.warnings[0], {"test.nff:1: ", "does not move", "(and 1 more)"}));
+  EXPECT_TRUE(says(result.warnings[0], {"test.nff:1: ", "static light", "(and 1 more)"}));
 }
 
 TEST(NffReader, CountsAreNotRoundedToFloat) {

@@ -22,7 +22,7 @@ std::string written(const Scene& scene) {
   return stream.str();
 }
 
-/// Returns everything that NFF must preserve, as words that are equal if the bits are. Polygons are
+/// Everything that NFF must preserve, as words that are equal if the bits are equal. Polygons are
 /// represented by the positions of their vertices, because the sharing of vertices is not
 /// preserved.
 class Contents {
@@ -122,7 +122,7 @@ TEST(NffWriter, ANameCannotLeaveItsComment) {
   EXPECT_TRUE(survives(std::move(builder).build()));
 }
 
-/// Numbers of all sizes that a scene may hold; sometimes a special one.
+/// Draws numbers of all sizes that a scene may hold; some of them are special values.
 class Numbers {
  public:
   explicit Numbers(std::uint64_t seed) : random_(seed) {}
@@ -219,11 +219,11 @@ RC_GTEST_PROP(NffWriter, AnySceneReadsBackTheSame, (std::uint64_t seed)) {
   try {
     built = std::move(builder).build();
   } catch (const InputError&) {
-    RC_DISCARD("a scene that is too small for single precision, which the builder refuses");
+    RC_DISCARD("the builder refuses a scene that is too small for single precision");
   }
   const Scene& scene = *built;
   RC_ASSERT(survives(scene));
-  // The same except for the name of the first, which is in a comment.
+  // The scene is read under its own name, so even the comment is the same when it is written again.
   const Scene again = nff::parse_nff(written(scene), "random").scene;
   RC_ASSERT(written(again) == written(scene));
 }

@@ -74,7 +74,7 @@ TEST_F(NoPrimitives, Utf16IsIdentified) {
   }
 }
 
-/// Loads a scene of a plug-in in a separate process, because only the catalogue there has it.
+/// Loads a plug-in's scene. Call this in a separate process, because it changes the catalogue.
 void load_plugin_scene(const std::string& spec) {
   const auto nothing = [] { return SceneBuilder("nothing").build(); };
   register_plugin_scenes(

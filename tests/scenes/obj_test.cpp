@@ -102,7 +102,7 @@ TEST_F(Obj, NumbersAreExactHoweverTheyAreWritten) {
   }
 }
 
-/// Stars, with corners at rising angles and arbitrary distances, so that they may be concave.
+/// Uses stars with corners at rising angles and arbitrary distances, so that they may be concave.
 RC_GTEST_FIXTURE_PROP(Obj, ConcavePolygonsKeepTheirArea, ()) {
   const int count = *rc::gen::inRange(4, 14);
   std::string text;
@@ -148,11 +148,11 @@ TEST_F(Obj, ARefusalStatesThePlace) {
     EXPECT_TRUE(says(message(kThreeVertices + lines), words)) << lines;
     EXPECT_TRUE(says(message(kThreeVertices + lines), {"a.obj: "}));
   };
-  refused("f 1 2 4\n", {"line 4", "the vertex 4", "3 vertices"});
-  refused("f 1 2 3\n\nf 1 2 -4\n", {"line 6", "the vertex -4", "3 vertices"});
-  refused("f 1 2 -2147483648\n", {"line 4", "the vertex -2147483648"});
-  refused("f 1 2 2147483647\n", {"line 4", "the vertex 2147483647"});
-  refused("f 1 2 3\nf\nf 1 \\\n2 3 9\n", {"line 6", "the vertex 9"});
+  refused("f 1 2 4\n", {"line 4", "refers to vertex 4", "3 vertices"});
+  refused("f 1 2 3\n\nf 1 2 -4\n", {"line 6", "refers to vertex -4", "3 vertices"});
+  refused("f 1 2 -2147483648\n", {"line 4", "refers to vertex -2147483648"});
+  refused("f 1 2 2147483647\n", {"line 4", "refers to vertex 2147483647"});
+  refused("f 1 2 3\nf\nf 1 \\\n2 3 9\n", {"line 6", "refers to vertex 9"});
   refused("f 0 1 2\n", {"line 4", "'0'", "count from 1"});
   refused("f 1 2 x\n", {"line 4", "the corner 'x'"});
   refused("f 1 2 4294967299\n", {"line 4", "'4294967299'"});
@@ -185,7 +185,8 @@ TEST_F(Obj, LinesThatAreNotUnderstoodAreCountedWithTheirNumbers) {
   EXPECT_TRUE(says(warning_for(std::string(4096, '\0') + "v 0 0 1"), {"line 5 ('\\x00\\x00"}));
   EXPECT_TRUE(says(warning_for("f"), {"line 5 ('f')"})) << "a face without corners";
   EXPECT_TRUE(says(warning_for("call other.obj"), {"line 5 ('call')"}));
-  EXPECT_TRUE(says(warning_for("\xEF\xBB\xBFv 0 0 1"), {"line 5 ('"})) << "in the middle";
+  EXPECT_TRUE(says(warning_for("\xEF\xBB\xBFv 0 0 1"), {"line 5 ('"}))
+      << "a byte order mark in the middle";
   EXPECT_EQ(warning_for("a\nb\nc\nd \\\ne"),
             "5 lines are not understood and were left out: line 5 ('a'), line 6 ('b'), "
             "line 7 ('c') and 2 more");
@@ -290,9 +291,9 @@ TEST_F(Obj, MaterialsAreThoseOfItsLibraries) {
   EXPECT_EQ(mesh.mesh.parts[1].surface.color, glm::vec3(0.0F, 0.0F, 1.0F));
   EXPECT_EQ(mesh.mesh.parts[1].surface.transmittance, 0.25F);
   EXPECT_EQ(mesh.mesh.parts[2].surface.color, glm::vec3(0.0F, 1.0F, 0.0F));
-  EXPECT_EQ(mesh.mesh.parts[3].surface.color, glm::vec3(0.6F)) << "it says no color";
-  EXPECT_EQ(mesh.mesh.parts[4].surface.color, glm::vec3(0.5F)) << "it is painted";
-  EXPECT_EQ(mesh.companions.size(), 4U) << "three, and 'b.mtl c.mtl', which is not there";
+  EXPECT_EQ(mesh.mesh.parts[3].surface.color, glm::vec3(0.6F)) << "the material has no color";
+  EXPECT_EQ(mesh.mesh.parts[4].surface.color, glm::vec3(0.5F)) << "the material has a texture";
+  EXPECT_EQ(mesh.companions.size(), 4U) << "three files, and 'b.mtl c.mtl', which does not exist";
   EXPECT_TRUE(mesh.warnings.empty());
 }
 

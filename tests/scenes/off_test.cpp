@@ -17,7 +17,7 @@ std::uint64_t off_hash(const std::string& text) { return imported_hash(text, "of
 
 std::string off_refusal(const std::string& text) { return refusal(text, "off"); }
 
-/// Returns a tetrahedron after the header, with a text at the end of each vertex and each face.
+/// Returns a tetrahedron's rows after the header, with a string appended to each vertex and face.
 std::string tetrahedron_rows(std::string_view of_vertex, std::string_view of_face) {
   std::string text;
   for (const char* vertex : {"0 0 0", "1 0 0", "0 2 0", "0 0 3"}) {
@@ -139,9 +139,9 @@ TEST(Off, AnInvalidNumberIsRefusedWithItsLine) {
 
 TEST(Off, RowsThatAreTooShortOrTooLongAreRefused) {
   EXPECT_TRUE(says(off_refusal(triangle_off("0 0")), {"line 3: vertex 0 has fewer than three"}));
-  EXPECT_TRUE(says(off_refusal(triangle_off("0 0 0 1")), {"line 3: vertex 0 has 1 number more"}));
+  EXPECT_TRUE(says(off_refusal(triangle_off("0 0 0 1")), {"line 3: vertex 0 has 1 number after"}));
   EXPECT_TRUE(
-      says(off_refusal("COFF\n3 1 0\n0 0 0 1 1\n"), {"line 3: vertex 0 has 2 numbers more"}));
+      says(off_refusal("COFF\n3 1 0\n0 0 0 1 1\n"), {"line 3: vertex 0 has 2 numbers after"}));
   EXPECT_TRUE(says(off_refusal(triangle_off("0 0 0", "3 0 1")),
                    {"line 6: face 0 has 2 corners, but declares 3"}));
   EXPECT_TRUE(says(off_refusal(triangle_off("0 0 0", "3 0 1 2 1 1 1 1 1")),
@@ -154,7 +154,7 @@ TEST(Off, MissingVerticesAreRefused) {
   for (const char* index : {"3", "9", "-1", "4294967298", "1.5"}) {
     EXPECT_TRUE(
         says(off_refusal(triangle_off("0 0 0", fmt::format("3 0 1 {}", index))),
-             {"a.off: line 6: face 0 has the vertex ", fmt::format("'{}'", index), "only 3"}));
+             {"a.off: line 6: face 0 refers to vertex ", fmt::format("'{}'", index), "only 3"}));
   }
 }
 

@@ -22,7 +22,7 @@ Surface mirror() {
   return surface;
 }
 
-/// Adds a square of the plane through `corner`, with sides along `u` and `v`.
+/// Adds a parallelogram with sides `u` and `v` from `corner`.
 void add_square(SceneBuilder& builder, const dvec3& corner, const dvec3& u, const dvec3& v) {
   const dvec3 corners[] = {corner, corner + u, corner + u + v, corner + v};
   builder.add_polygon(corners);
@@ -93,7 +93,7 @@ TEST(PlanarMirrors, OfTiltedPlanesAreNotSplit) {
     std::size_t polygons = 0;
     for (const PlanarSurface& each : mirrors) polygons += each.polygons.size();
     EXPECT_EQ(polygons, 2U) << turn;
-    EXPECT_LE(mirrors.size(), 2U) << turn;  // two if it lies between cells of planes
+    EXPECT_LE(mirrors.size(), 2U) << turn;  // two if the plane lies between two cells of planes
   }
 }
 

@@ -51,7 +51,7 @@ TEST(PlyRows, RowsThatAreTooShortOrTooLongAreRefused) {
 TEST(PlyRows, MissingVerticesAreRefused) {
   for (const char* index : {"3", "-1", "2147483647"}) {
     EXPECT_TRUE(says(ply_refusal(triangle_ply("0 0 0", fmt::format("3 0 1 {}", index))),
-                     {"line 13: face 0: ", fmt::format("the vertex {},", index), "only 3"}));
+                     {"line 13: face 0: ", fmt::format("refers to vertex {},", index), "only 3"}));
   }
   for (const char* index : {"4294967298", "1.5", "1e0", "1,"}) {
     EXPECT_TRUE(says(ply_refusal(triangle_ply("0 0 0", fmt::format("3 0 1 {}", index))),
@@ -60,7 +60,7 @@ TEST(PlyRows, MissingVerticesAreRefused) {
   const std::string real = ply_file("ascii", vertices(3) + faces(1, "uchar float"), {});
   for (const char* index : {"1.5", "nan", "inf", "1e30"}) {
     EXPECT_TRUE(says(ply_refusal(real + "0 0 0\n1 0 0\n0 1 0\n3 0 1 " + index + "\n"),
-                     {"line 13: face 0: ", "not the number of a vertex"}));
+                     {"line 13: face 0: ", "not a vertex index"}));
   }
   for (const std::string_view encoding : {kPlyEncodings[1], kPlyEncodings[2]}) {
     const std::string bytes = ply_file(
@@ -68,7 +68,7 @@ TEST(PlyRows, MissingVerticesAreRefused) {
         corners() +
             std::vector<PlyRow>{{{"uchar", 3}, {"uint", 0}, {"uint", 1}, {"uint", 4294967295.0}}});
     EXPECT_TRUE(says(ply_refusal(bytes), {fmt::format("byte {}: face 0: ", bytes.size()),
-                                          "the vertex 4294967295", "only 4"}));
+                                          "refers to vertex 4294967295", "only 4"}));
   }
 }
 
@@ -135,12 +135,12 @@ TEST(PlyRows, CoordinatesAreTheNearestFloats) {
   }
 }
 
-/// A decimal that is first rounded to double would become the even one of two floats.
+/// A decimal that is first rounded to double would always become the even of two floats.
 TEST(PlyRows, AFloatIsRoundedOnce) {
   const auto x = [](const std::string& text) {
     return triangles_of(imported(triangle_ply(text + " 0 0"), "ply"))[0][0].x;
   };
-  EXPECT_EQ(x("0.5000000298023223876953125"), 0.5F) << "halfway: to the even one";
+  EXPECT_EQ(x("0.5000000298023223876953125"), 0.5F) << "a tie is rounded to the even float";
   EXPECT_EQ(x("0.50000002980232238769531250000000000000001"), 0x1.000002p-1F);
   EXPECT_EQ(x("0.50000002980232238769531249999999999999999"), 0.5F);
 }

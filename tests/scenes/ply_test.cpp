@@ -269,7 +269,7 @@ TEST(Ply, APointCloudIsRefusedWithItsOwnMessage) {
 TEST(Ply, RowsWithoutPropertiesAreRefused) {
   for (const std::string_view encoding : kPlyEncodings) {
     EXPECT_TRUE(says(ply_refusal(ply_file(encoding, "element vertex 1000000000000000000\n", {})),
-                     {"declares 1000000000000000000 of the element 'vertex'", "no property"}));
+                     {"declares 1000000000000000000 of the element 'vertex'", "no properties"}));
   }
 }
 

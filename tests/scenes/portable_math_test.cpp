@@ -8,7 +8,7 @@
 namespace beambench::scenes {
 namespace {
 
-// Compared with the library's own functions, which are correct to one unit in the last place on our
+// Compares our functions with the library's, which are correct to one unit in the last place on our
 // build machines.
 
 TEST(PortableMath, SineAndCosine) {

@@ -25,7 +25,7 @@ TEST(Printable, LeavesPrintableTextUnchanged) {
 TEST(Printable, EscapesBytesThatAreNotUtf8) {
   EXPECT_EQ(printable("C\xE1mara"), "C\\xe1mara");
   EXPECT_EQ(printable("cut\xE6\xBC"), "cut\\xe6\\xbc");
-  EXPECT_EQ(printable("\xC0\xAF"), "\\xc0\\xaf") << "longer than needed";
+  EXPECT_EQ(printable("\xC0\xAF"), "\\xc0\\xaf") << "an overlong encoding";
   EXPECT_EQ(printable("\xED\xA0\x80"), "\\xed\\xa0\\x80") << "a surrogate";
   EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond Unicode";
 }

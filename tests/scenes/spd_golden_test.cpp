@@ -39,8 +39,8 @@ std::vector<float> numbers(const Scene& scene, PrimitiveId id, bool sorted_corne
   return all;
 }
 
-/// Returns whether our number would be printed as the other one: equal within half a unit of the
-/// sixth digit plus the rounding of both to float. Numbers that the SPD printed as about 1e-15
+/// Returns whether our number would be printed like the SPD's: both are equal within half a unit of
+/// the sixth digit plus the rounding of both to float. Numbers that the SPD printed as about 1e-15
 /// count as 0.
 bool agrees(float ours, float printed) {
   const double size = std::abs(double{printed});
@@ -63,7 +63,7 @@ struct Golden {
   const char* file;
   const char* spec;
   bool whole;     ///< the file has all primitives
-  bool in_order;  ///< ours are in the SPD's order, and polygons begin at the same corner
+  bool in_order;  ///< our primitives are in the SPD's order, and polygons begin at the same corner
 };
 
 void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.file; }
@@ -103,7 +103,7 @@ TEST_P(SpdOutput, MatchesOurPrimitives) {
       EXPECT_TRUE(same_surface(surface(ours_, ours), surface(printed_, id))) << id;
     }
     next = ours + 1;
-    found->clear();  // each of ours matches only one
+    found->clear();  // each of our primitives may match only one
   }
 }
 

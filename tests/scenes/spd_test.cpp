@@ -104,8 +104,8 @@ TEST(Spd, CountsFollowTheFormulas) {
   }
 }
 
-// At size 1, four of the 56 triangles of the SPD's teapot are degenerate, which is not allowed
-// here; the SPD's own program warns about that size.
+// At size 1, four of the 56 triangles of the SPD's teapot are degenerate, which our scenes do not
+// allow. The SPD's own program warns about this size.
 TEST(Spd, OnlyTheTeapotStartsAtSizeTwo) {
   for (const auto& [name, formula] : formulas()) {
     EXPECT_EQ(std::max<std::int64_t>(smallest(name), 1), name == "teapot" ? 2 : 1) << name;
@@ -235,7 +235,7 @@ TEST(Gears, TeethMeshWithTheNeighborsTeeth) {
     EXPECT_NEAR(glm::distance(glm::dvec2(right[i]), right_center), own * radius, 1e-7);
     nearest = std::min(nearest, glm::distance(glm::dvec2(right[i]), left_center));
   }
-  EXPECT_GT(nearest, 0.9 * radius) << "a tip meets the foot between two teeth";
+  EXPECT_GT(nearest, 0.9 * radius) << "a tip touches the gap between two teeth";
   EXPECT_LT(nearest, 0.93 * radius) << "the gears do not mesh";
   // Half a tooth apart: a tooth points along +x on the left, a gap along -x on the right.
   EXPECT_NEAR(left[0].y + left[1].y, 2.0 * left_center.y, 1e-6);
@@ -278,7 +278,7 @@ TEST(Rings, PentagonsAreRegularAndFillAUnitSphere) {
       nearest = std::min(nearest, glm::distance(p, glm::dvec3(scene.spheres[k].center)));
     }
   }
-  // The middles of a dodecahedron's edges: neighbors subtend 36 degrees.
+  // Neighboring edge midpoints of a dodecahedron subtend 36 degrees.
   EXPECT_NEAR(nearest, 2.0 * circle * std::sin(std::acos(-1.0) / 10.0), 1e-6);
 }
 
@@ -378,7 +378,7 @@ std::vector<std::array<float, 3>> places(const Scene& scene, PrimitiveId id) {
   return all;
 }
 
-/// Uses a small size if the scene has a size parameter.
+/// Returns the specs of all scenes, with a small size if the scene has a size parameter.
 std::vector<std::string> small_specs() {
   std::vector<std::string> specs;
   for (const SceneInfo& info : scene_catalogue()) {

@@ -8,7 +8,7 @@
 namespace beambench::scenes {
 namespace {
 
-/// A spec as it would be typed.
+/// Returns a spec as a user would type it.
 std::string typed(const Spec& spec) {
   std::string text = spec.name;
   for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
@@ -105,13 +105,13 @@ TEST(NearestName, IsTheEquivalentOfAForeignName) {
   EXPECT_EQ(nearest_name("--size", options), "--resolution");
 }
 
-// `picture` is a command to some and a kind of rays to others.
+// For some users `picture` is a command, for others a kind of rays.
 TEST(NearestName, IsTheMeaningAmongTheNames) {
   EXPECT_EQ(nearest_name("picture", std::vector<std::string>{"render", "run"}), "render");
   EXPECT_EQ(nearest_name("picture", std::vector<std::string>{"primary", "whitted"}), "whitted");
 }
 
-// max is part of two names, and neither is meant.
+// `max` is part of two names, so neither is suggested.
 TEST(NearestName, IsEmptyIfSeveralNamesContainTheWord) {
   EXPECT_EQ(nearest_name("max", std::vector<std::string>{"max_level", "max_objects"}), "");
 }

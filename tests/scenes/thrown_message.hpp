@@ -10,8 +10,7 @@
 
 namespace beambench::scenes {
 
-/// Returns the message of the InputError that the call throws; "(nothing thrown)" if it throws
-/// none.
+/// Returns the message of the InputError that the call throws, or "(nothing thrown)".
 template <typename Call>
 std::string thrown_message(Call call) {
   try {

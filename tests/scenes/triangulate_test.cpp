@@ -37,8 +37,8 @@ glm::dvec3 vector_area(const Corners& corners, const std::array<std::uint32_t, 3
   return vector_area({corners[a], corners[b], corners[c]});
 }
 
-/// Returns a star-shaped polygon, usually concave, in a random plane at a random place; with
-/// `ratio` 1 the corners lie on a circle and the polygon is convex.
+/// Returns a star-shaped polygon, usually concave, in a random plane at a random place. If `ratio`
+/// is 1, the corners lie on a circle and the polygon is convex.
 Corners star(Random& random, std::size_t count, double ratio) {
   const auto direction = [&] {
     return glm::normalize(
@@ -155,8 +155,8 @@ TEST(Triangulate, SelfIntersectingPolygonTerminates) {
   }
 }
 
-/// The same ear clipping, but examining all corners at each step, for counter-clockwise polygons in
-/// the plane z = 0: the search for the next corner must not change the result.
+/// Clips ears of counter-clockwise polygons in the plane z = 0, but examines all corners at each
+/// step: the program's search for the next corner must not change the result.
 Triangles triangulate_by_looking_at_all(const Corners& corners) {
   struct Corner {
     std::uint32_t number;
@@ -214,8 +214,7 @@ TEST(Triangulate, TheSearchForEarsDoesNotChangeTheTriangles) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const std::size_t count = 3 + random.below(seed % 10 == 0 ? 300 : 40);
-    // Positions on a small lattice cause straight edges, equal corners and crossings; others do
-    // not.
+    // Collinear edges and coincident corners are common only on a small lattice.
     const std::uint64_t lattice = std::array<std::uint64_t, 4>{4, 12, 100, 1U << 20U}[seed % 4];
     const bool crosses_itself = seed % 3 == 0;
     Corners corners;

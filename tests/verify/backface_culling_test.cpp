@@ -56,7 +56,7 @@ class Exhibit {
 
   const scenes::Scene& scene() const { return scene_; }
 
-  /// Returns an eye anywhere around, in the center, on a surface, or slightly off one.
+  /// Returns a view whose eye is anywhere around, near the center, on a surface or slightly off it.
   PrimaryRays view() {
     const double extent = glm::length(dvec3(scene_.bounds.extent()));
     scenes::Camera camera;
@@ -83,7 +83,7 @@ class Exhibit {
     dvec3 shift(0.0);
     double scale = 1.0;
     switch (random_.below(4)) {
-      case 0:  // in the one before, or around it
+      case 0:  // inside the previous body, or around it
         scale = random_.uniform(0.1, 2.0);
         break;
       case 1:  // a box's neighbor

@@ -67,7 +67,7 @@ struct Traced {
   HitTable hits;
 };
 
-/// A form of stating hits.
+/// A form in which hits are reported.
 struct Form {
   std::string name;
   std::function<ClaimedHits(const HitTable&)> claims;
@@ -104,7 +104,7 @@ TEST(Claims, CorrectHitsPassInEveryForm) {
       }
       const DiffReport report = traced.verify(form.claims(traced.hits));
       EXPECT_EQ(report.count(DiffClass::kStructureError), 0U) << name << ", " << form.name;
-      // Rays aimed at edges graze in any form of hits.
+      // Rays aimed at edges graze, whatever the form of the hits.
       EXPECT_LE(report.count(DiffClass::kGraze), 20U) << name << ", " << form.name;
       EXPECT_EQ(report.rays, traced.rays.size());
       EXPECT_GT(report.hits, 100U);
@@ -112,7 +112,8 @@ TEST(Claims, CorrectHitsPassInEveryForm) {
   }
 }
 
-/// Returns a ray that hits a face well inside, steeply: no fault there can be a graze or a tie.
+/// Returns a ray that hits a face steeply and far from its edges, where a fault can be neither a
+/// graze nor a tie.
 std::size_t clear_hit(const Traced& traced) {
   for (std::size_t i = 0; i < traced.rays.size(); ++i) {
     if (traced.hits.primitives[i] == scenes::kNoPrimitive) continue;
@@ -171,7 +172,7 @@ TEST(Claims, AnInventedHitIsFound) {
   wrong.points[miss] = traced.rays[miss].origin + traced.rays[miss].direction;
   wrong.primitives[miss] = wrong.triangles[miss] = 3;
   wrong.occluded[miss] = 1;
-  for (const Form& form : forms()) expect_found(traced, wrong, form, miss, "a hit too many");
+  for (const Form& form : forms()) expect_found(traced, wrong, form, miss, "an extra hit");
 }
 
 TEST(Claims, ManyWrongPointsCostNoMoreThanTheBudget) {
@@ -290,8 +291,9 @@ TEST(Claims, InconsistentArraysAreRefused) {
   }
 }
 
-// The ray just misses an upright triangle, which the program reports as hit. Behind it, at grazing
-// incidence, the ray meets a horizontal triangle, whose plane nearly contains the claimed point.
+// The program reports a hit on an upright triangle, which the ray just misses. Behind this
+// triangle, the ray meets a horizontal one at grazing incidence, whose plane nearly contains the
+// claimed point.
 TEST(Claims, APointInThePlaneButFarFromThePrimitiveIsNotOnIt) {
   scenes::SceneBuilder builder("level and upright");
   const glm::dvec3 level[] = {{5, 0, -2}, {9, 0, 0}, {5, 0, 2}};
@@ -304,7 +306,7 @@ TEST(Claims, APointInThePlaneButFarFromThePrimitiveIsNotOnIt) {
   ClaimVerifier verifier(scene);
   verifier.add({&ray, 1}, {.t = {&t, 1}});
   const DiffReport report = verifier.finish();
-  EXPECT_EQ(report.hits, 1U) << "the level one";
+  EXPECT_EQ(report.hits, 1U) << "the horizontal triangle";
   ASSERT_EQ(report.count(DiffClass::kGraze), 1U);
   EXPECT_EQ(report.examples.front().answer->primitive, 1U);
 }

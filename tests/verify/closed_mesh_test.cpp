@@ -37,7 +37,7 @@ class Sealed {
       : body_(&body), random_(seed), placement_(random_), scene_(placed()) {}
 
   static constexpr std::size_t kRays = TileBeam::least_pencil(true);
-  /// The targets of half of the rays toward a light inside; the others have random targets.
+  /// The places through which half of the rays toward a light inside pass; the others are random.
   enum class Aim { kNearEdges, kAtEdgesAndCorners };
 
   const scenes::Scene& scene() const { return scene_; }
@@ -88,7 +88,7 @@ class Sealed {
   }
   /// Returns a place within a few dozen roundings of an edge.
   dvec3 near_edge() { return on_edge() + 4e-6 * body_->reach * point_in_cube(random_); }
-  /// Returns a place outside, behind one that hides the light inside.
+  /// Returns a place outside, from which `place` hides the light inside.
   dvec3 beyond(const dvec3& place, const dvec3& light) const {
     return light + 2.1 * body_->reach * glm::normalize(place - light);
   }
@@ -141,12 +141,12 @@ TEST(ClosedMeshes, LeakNoLightOnAnyInstructionSet) {
   }
 }
 
-/// Along common edges, each triangle must cover the rays that the others leave.
+/// Along common edges, each triangle must stop the rays that the others let pass.
 TEST(ClosedMeshes, LeakNoLightAtEdgesAndCorners) {
   expect_no_leak(10'000, Sealed::Aim::kAtEdgesAndCorners);
 }
 
-/// Uses more rays, so that pencils have several parts, and more triangles, so that they are small.
+/// Uses so many rays that pencils have several parts, and so many triangles that these are small.
 TEST(ClosedMeshes, LeakNoLightInLargePencils) {
   for (const char* name : {"bumpy:triangles=3072", "bumpy:triangles=48"}) {
     const scenes::Scene scene = scenes::load_scene(name);

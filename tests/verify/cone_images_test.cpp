@@ -89,8 +89,9 @@ scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Ran
 /// The eye and its target.
 using View = std::pair<dvec3, dvec3>;
 
-/// Returns views in which cones are difficult: in and on the axis, beyond the tip, in the continued
-/// surface, at the continued tip, next to the surface.
+/// Returns views in which cones are difficult: from eyes on the axis inside and beyond the cone,
+/// close to the axis, on and next to the surface, on its extension, at its extended tip, and far
+/// away.
 std::vector<View> views_of(const scenes::Cone& cone, Random& random) {
   const dvec3 base(cone.base);
   const dvec3 axis = dvec3(cone.apex) - base;
@@ -195,7 +196,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ConeImages, ::testing::Range(std::size_t{0}, sh
                            return name;
                          });
 
-/// Float decides nearly all samples: the canonical test takes fifty times as long.
+/// Nearly all samples must be decided in float, because the canonical test takes fifty times as
+/// long.
 TEST(ConeImages, AreRarelyDoubtful) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));

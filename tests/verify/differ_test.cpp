@@ -51,7 +51,7 @@ TEST(Oracle, ReturnsTheExactAnswer) {
                       std::abs(found->t - exact->t) <= 1e-9 * (1.0 + exact->t)))) {
         continue;
       }
-      // The remaining differences must be ties or grazes.
+      // Any other differences must be ties or grazes.
       ++not_equal;
       std::optional<accel::Hit> rounded;
       if (found) rounded = accel::Hit{static_cast<float>(found->t), found->primitive};
@@ -308,7 +308,7 @@ TEST_F(FaultyBuffer, BaselineMustReportOnlyMisses) {
   EXPECT_EQ(silent.count(DiffClass::kStructureError), 0U);
 }
 
-/// Adds one of each kind, numbered 0, 1 and 2.
+/// Adds one primitive of each kind, with ids 0, 1 and 2.
 void add_triangle_sphere_and_cone(scenes::SceneBuilder& builder) {
   const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
   builder.add_polygon(corners);
@@ -380,9 +380,9 @@ class EndsAtASurface : public ::testing::Test {
     return std::move(builder).build();
   }
 
-  /// Returns a ray above the surface except for one end, which is at a distance from the point's
-  /// plane (in K u, upward); the ray is inclined so that this end is at twice that distance along
-  /// its line.
+  /// Returns a ray above the surface except for one end, which is `tolerances` K u above the
+  /// point's plane (below it if negative). The ray is inclined so that along the ray, this end is
+  /// twice as far from the plane.
   accel::Ray ray_at(const Place& place, End end, double tolerances, double length = 0.5) const {
     const glm::dvec3 slope(std::sqrt(0.75), 0.0, 0.5);
     const glm::dvec3 above = place.point + length * slope;
@@ -417,7 +417,8 @@ class EndsAtASurface : public ::testing::Test {
     return found;
   }
 
-  /// Expects a class for a structure with wrong results at that distance.
+  /// Expects wrong results to be classed as `expected` if an end is `tolerances` K u from a
+  /// surface.
   void expect_class(double tolerances, DiffClass expected) const {
     for (const Place& place : kPlaces) {
       for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {
@@ -468,7 +469,7 @@ TEST_F(EndsAtASurface, LosingAnotherHitIsAnError) {
   }
 }
 
-// Within K u of the plane and in the box, but outside the triangle.
+// The end is within K u of the triangle's plane and in its box, but outside the triangle.
 TEST_F(EndsAtASurface, AnyHitReportedBesideATriangleIsAnError) {
   const Place beside{"beside", {0.75, 0.75, 0.0}};
   for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {

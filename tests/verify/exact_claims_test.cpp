@@ -1,9 +1,9 @@
 // The judge against exact arithmetic: it accepts no claim that is off by more than 4 K u, and
-// refuses none within K u / 4.
+// refuses no claim within K u / 4.
 //
-// In the environment, BEAMBENCH_EXACT_CLAIMS=1000000 requests that many claims, which take a
-// minute; BEAMBENCH_EXACT_SEED=N selects others; BEAMBENCH_EXACT_REPORT=N prints that many
-// violations of each family instead of 3.
+// Environment variables: BEAMBENCH_EXACT_CLAIMS=1000000 requests a million claims, which take a
+// minute; BEAMBENCH_EXACT_SEED=N selects other claims; BEAMBENCH_EXACT_REPORT=N prints N violations
+// of each family instead of 3.
 
 #include <map>
 #include <string>
@@ -124,7 +124,7 @@ Claims make_claims(const std::vector<Solid>& solids, const std::vector<accel::Ra
   return claims;
 }
 
-/// Returns the judge's classes for claims of one query.
+/// Returns the judge's classes for claims about one kind of query.
 std::vector<DiffClass> judged(const scenes::Scene& scene, const std::vector<const Claim*>& claims) {
   rays::RaySet set;
   set.query = claims.front()->query;
@@ -143,7 +143,7 @@ std::vector<DiffClass> judged(const scenes::Scene& scene, const std::vector<cons
   return classes;
 }
 
-/// Compares the judge with exact arithmetic, and counts.
+/// Compares the judge with exact arithmetic, and counts the claims.
 class Comparison {
  public:
   explicit Comparison(const Family& family) : family_(family) {}
@@ -177,7 +177,7 @@ class Comparison {
   std::size_t violations() const { return refused_ + accepted_; }
   std::string summary() const {
     return fmt::format(
-        "{}: {} right claims, {} refused; {} wrong ones, {} accepted; {} undecided\n{}",
+        "{}: {} right claims, {} refused; {} wrong claims, {} accepted; {} undecided\n{}",
         family_.name, right_, refused_, wrong_, accepted_, undecided_, examples_);
   }
 

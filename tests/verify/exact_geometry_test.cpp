@@ -85,7 +85,7 @@ TEST_F(ExactGeometry, OnARayAlongTheAxisTheApexIsMetTwice) {
 
 TEST_F(ExactGeometry, IntervalUsesTheNearestFloat) {
   const float t = 1.0F / 3.0F;
-  // The ray meets the square at exactly t = 1; the interval ends one unit before it, and so on.
+  // The ray meets the square at exactly t = 1; one end of the interval is at this t or next to it.
   const glm::vec3 origin(0.25F, 1.0F, 0.125F);
   const glm::vec3 down(0.0F, -1.0F, 0.0F);
   const auto met = [&](float t_min, float t_max, glm::vec3 from, glm::vec3 along) {
@@ -99,11 +99,11 @@ TEST_F(ExactGeometry, IntervalUsesTheNearestFloat) {
   EXPECT_FALSE(met(0.0F, std::nextafter(1.0F, 0.0F), origin, down));
   EXPECT_TRUE(met(1.0F, 2.0F, origin, down));
   EXPECT_FALSE(met(std::nextafter(1.0F, 2.0F), 2.0F, origin, down));
-  // At exactly 1/3, which rounds upward.
+  // The ray meets the square at exactly t = 1/3, which rounds upward.
   EXPECT_TRUE(met(0.0F, t, origin, {0.0F, -3.0F, 0.0F}));
   EXPECT_TRUE(met(t, 1.0F, origin, {0.0F, -3.0F, 0.0F}));
   EXPECT_FALSE(met(0.0F, std::nextafter(t, 0.0F), origin, {0.0F, -3.0F, 0.0F}));
-  // Half of the smallest float rounds to zero, the even one.
+  // A t of half the smallest float rounds to zero, the even neighbor.
   EXPECT_TRUE(met(0.0F, 1.0F, {0.25F, 0x1p-149F, 0.125F}, {0.0F, 2.0F, 0.0F}));
   EXPECT_FALSE(met(0.0F, 1.0F, {0.25F, 0x1p-148F, 0.125F}, {0.0F, 2.0F, 0.0F}));
   // Beyond the largest float there are no hits.
@@ -124,7 +124,7 @@ TEST_F(ExactGeometry, ARayInThePlaneOfAPolygonDoesNotCrossIt) {
 }
 
 TEST_F(ExactGeometry, MovedHitsAreCorrectWithinAQuarterAndWrongBeyondFour) {
-  // At the square |x| = 0.25 and |o| = 7.75: u counts 8 lengths.
+  // At the square, |x| = 0.25 and |o| = 7.75, so u is 8 x 2^-24.
   const accel::Ray down = ray({0.25F, 7.746F, 0.0F}, {0.0F, -1.0F, 0.0F}, 5.75F);
   for (const double units : {-0.2, 0.0, 0.2}) {
     EXPECT_TRUE(right(down, accel::Hit{moved(7.746F, units), 0})) << units;
@@ -160,7 +160,7 @@ TEST_F(ExactGeometry, HitsBehindAClearHitAreWrong) {
   const accel::Ray down = ray({0.25F, 4.5F, 0.125F}, {0.0F, -1.0F, 0.0F});
   EXPECT_TRUE(wrong(down, accel::Hit{4.5F, 0}));
   EXPECT_TRUE(wrong(down, std::nullopt));
-  EXPECT_TRUE(wrong(down, accel::Hit{0.5F, 1})) << "the sphere is not yet there";
+  EXPECT_TRUE(wrong(down, accel::Hit{0.5F, 1})) << "before the sphere";
   EXPECT_TRUE(wrong(down, accel::Hit{1.5F, 2})) << "the cone is behind the origin";
   const double first = 1.5 - std::sqrt(1.0 - 0.078125);
   const double second = 1.5 + std::sqrt(1.0 - 0.078125);
@@ -169,7 +169,7 @@ TEST_F(ExactGeometry, HitsBehindAClearHitAreWrong) {
 }
 
 TEST_F(ExactGeometry, HitsBehindAGrazedHitAreJudgedAsUsual) {
-  // Just outside the sphere's silhouette, then clearly through the square.
+  // The ray passes just outside the sphere's silhouette, then clearly through the square.
   const accel::Ray down = ray({1.0F, 4.5F, 0.0F}, {-0x1p-40F, -1.0F, 0.0F});
   EXPECT_TRUE(right(down, accel::Hit{4.5F, 0}));
   EXPECT_FALSE(wrong(down, accel::Hit{1.5F, 1}));

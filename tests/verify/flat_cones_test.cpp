@@ -48,9 +48,9 @@ accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene
   return std::get<accel::HitBuffer>(std::move(results));
 }
 
-/// The expected hit of the ring that the cone resembles, to sufficient accuracy; nothing outside
-/// it. `unsure` if the ray passes within `margin` of a rim or is so close to the ring's plane that
-/// the cone's height matters.
+/// The expected hit of the ring that the cone resembles, to sufficient accuracy; `t` is empty if
+/// the ray misses the ring. `unsure` is set if the ray passes within `margin` of a rim or is so
+/// close to the ring's plane that the cone's height matters.
 struct Expected {
   std::optional<double> t;
   bool unsure;
@@ -145,7 +145,7 @@ TEST_P(FlatCone, HasNoRoomForErrors) {
       expect_error(i, accel::Hit{t - wrong, 0});
       ++on_ring;
     } else {
-      // Where the ray crosses the ring's plane, inside the hole or beyond the rim.
+      // Invent a hit where the ray crosses the ring's plane, inside the hole or beyond the rim.
       const accel::Ray ray = input.ray(i);
       const double t = (0.5 * height() - ray.origin.y) / ray.direction.y;
       if (t > 0.0) expect_error(i, accel::Hit{static_cast<float>(t), 0});

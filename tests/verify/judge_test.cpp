@@ -85,7 +85,7 @@ void expect_right(const scenes::Scene& scene, const rays::TraceInput& input,
   }
 }
 
-/// Floor and ceiling, and a light exactly in the ceiling.
+/// Returns a floor and a ceiling, with a light exactly in the ceiling.
 scenes::Scene room_lit_from_its_ceiling(bool with_sphere) {
   scenes::SceneBuilder builder("room");
   add_level(builder, 0.0, 2.0);
@@ -161,7 +161,7 @@ TEST(EndsOfRays, AnEyeOnASphereSeesItOrLooksAway) {
   expect_right(scene, made_rays(scene, "primary", 33), {"exhaustive", "samet", "sah-bvh"});
 }
 
-/// Returns the classes of closest-hit claims, each judged separately.
+/// Returns the class of a closest-hit claim, judged alone.
 DiffClass judged(const scenes::Scene& scene, const Ray& ray, const std::optional<Hit>& claim) {
   rays::RaySet set;
   set.rays = {ray};
@@ -191,7 +191,7 @@ TEST(Ties, AreNotFarBehindTheNearerSurface) {
   }
 }
 
-// The reverse: an object behind a floor that the ray sinks into at grazing incidence.
+// The reverse case: an object behind a floor that the ray enters at grazing incidence.
 TEST(Ties, AreNotFarBehindAGrazingSurfaceEither) {
   scenes::SceneBuilder builder("sinking");
   const dvec3 floor[] = {{-900.0, 0.0, -900.0}, {900.0, 0.0, -900.0}, {0.0, 0.0, 900.0}};
@@ -236,7 +236,7 @@ TEST(Grazes, DoNotExcuseHitsBehindThem) {
   add_rectangle(builder, {-3.0, -3.0, 1.0}, {6.0, 0.0, 0.0}, {0.0, 6.0, 0.0});
   add_rectangle(builder, {-3.0, -3.0, 0.0}, {6.0, 0.0, 0.0}, {0.0, 6.0, 0.0});
   const scenes::Scene scene = std::move(builder).build();
-  for (const float beside : {1e-7F, 0.0F, -1e-7F}) {  // of the first one's edge
+  for (const float beside : {1e-7F, 0.0F, -1e-7F}) {  // the triangle's edge
     SCOPED_TRACE(beside);
     const Ray ray{{beside, 0.25F, 5.0F}};
     EXPECT_TRUE(accepts(scene, ray, Hit{3.0F, 0}));
@@ -246,7 +246,7 @@ TEST(Grazes, DoNotExcuseHitsBehindThem) {
   }
 }
 
-/// Twenty triangles one behind another, which all rays of the tests cross.
+/// Returns twenty triangles, one behind another, which all rays of the tests cross.
 scenes::Scene stack_of_triangles() {
   scenes::SceneBuilder builder("stack");
   for (int i = 0; i < 20; ++i) {
@@ -299,8 +299,8 @@ TEST(ShortAndLongDirections, DenormalComponentsCount) {
       .join();
 }
 
-// The ray passes an edge within K u and reaches it just beyond its end, at a grazing incidence of
-// 0.0064 that stretches distances along it. Embree's fast kernels report a hit.
+// The ray passes within K u of an edge, but ends just before it. The grazing incidence (0.0064)
+// stretches distances along the ray. Embree's fast kernels report a hit.
 TEST(ShadowRays, MayEndAtTheEdgeOfAGrazedTriangle) {
   scenes::SceneBuilder builder("light on a triangle");
   const std::vector<glm::vec3> corners{{0.74624324F, -0.4514901F, -0.55538934F},

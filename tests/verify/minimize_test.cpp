@@ -111,7 +111,7 @@ TEST_F(Minimize, AnImageStaysWholeIfTheFaultNeedsIt) {
   EXPECT_EQ(set.rays[0].direction, found.mismatch.ray.direction);
 }
 
-/// The tracer loses every hit over few primitives, which is not the fault to be reduced.
+/// Over few primitives, the tracer loses every hit, which is not the fault to be reduced.
 TEST_F(Minimize, TheFaultStaysTheSame) {
   const Tracer wrong = [](const scenes::Scene& scene, const rays::TraceInput& input) {
     rays::HitTable hits = exhaustive()(scene, input);
@@ -131,7 +131,7 @@ TEST_F(Minimize, TheFaultStaysTheSame) {
   EXPECT_EQ(found.mismatch.reason, "the ray does not meet that primitive at that t");
 }
 
-/// A tracer that takes points near an edge to be outside of its triangle.
+/// Returns a tracer that treats points near an edge as outside the triangle.
 Tracer leaking() {
   return losing([](const scenes::Scene& scene, const rays::TraceInput& input,
                    const rays::HitTable& hits, std::size_t i) {
@@ -170,7 +170,8 @@ TEST(Leaks, AreFaultsOfRaysThatMustHit) {
   EXPECT_EQ(grazes.leaks, 0U);
 }
 
-/// A miss at the rim of one triangle is right, so a leak takes all that meet where the ray passes.
+/// A miss at the rim of a single triangle is correct, so a leak needs all triangles that meet where
+/// the ray passes.
 TEST(Leaks, AreReducedToThePrimitivesThatMeetThere) {
   const ClosedMesh mesh = closed_mesh({10.0, -3.0, 7.0}, 2.0);
   const rays::TraceInput input = rays_at_edges_from_inside(mesh);
@@ -284,7 +285,7 @@ TEST_F(Minimize, ACommandThatFailsIsNamed) {
   EXPECT_TRUE(scenes::says(refusal("printf 't,primitive\\n1,2\\n' > {hits}"),
                            {"wrote 1 hits for 480 rays"}));
 
-  // The message has the command as it was run, and its files are there.
+  // The message quotes the command as run, and the command's files still exist.
   const std::string message = refusal("test -s {obj} && exit 3; {hits}");
   const std::size_t begin = message.find("test -s ") + 8;
   const std::string obj = message.substr(begin, message.find(' ', begin) - begin);

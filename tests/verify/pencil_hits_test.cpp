@@ -89,8 +89,8 @@ rays::ImageOfRays image_over(const scenes::Scene& scene, int width, int height, 
   return rays::image_of(scene.cameras.front(), rays::Resolution{width, height}, samples);
 }
 
-/// Returns the number of parts of pencils, so that a test with too few rays for pencils does not
-/// pass unnoticed.
+/// Expects correct hits for one kind of rays. Returns the number of parts of pencils, which shows
+/// whether there were enough rays for pencils.
 std::uint64_t expect_right_over(const scenes::Scene& scene, const rays::ImageOfRays& image,
                                 const char* kind) {
   try {
@@ -113,8 +113,8 @@ double size_of(const scenes::Scene& scene) {
   return glm::length(dvec3(scene.bounds.upper) - dvec3(scene.bounds.lower)) + 1e-3;
 }
 
-/// Lights anywhere around a scene, on and near its surfaces, in the planes of its faces, close to
-/// it and far away.
+/// Returns lights anywhere around a scene: on and near its surfaces, in the planes of its faces,
+/// close to it and far away.
 std::vector<scenes::Light> awkward_lights(const scenes::Scene& scene, Random& random) {
   const dvec3 middle = 0.5 * (dvec3(scene.bounds.lower) + dvec3(scene.bounds.upper));
   const double size = size_of(scene);
@@ -155,7 +155,7 @@ TEST(PencilHits, OfRandomScenesAndDifficultLightsAreCorrect) {
   EXPECT_GT(beams, 1500U);
 }
 
-/// Balls of light that touch surfaces, enclose objects and lie inside solids.
+/// Uses balls of light that touch surfaces, enclose objects and lie inside solids.
 TEST(PencilHits, OfAreaLightsAreCorrect) {
   std::uint64_t beams = 0;
   for (std::uint64_t seed = 200; seed < 224; ++seed) {
@@ -170,8 +170,9 @@ TEST(PencilHits, OfAreaLightsAreCorrect) {
   EXPECT_GT(beams, 1500U);
 }
 
-/// Lights at distances of every power of ten from 1e-6 to 1e6 scene sizes: from the scene's center,
-/// from both sides of a triangle, and from a sphere and a cone, inside and outside.
+/// Returns lights at distances of every power of ten from 1e-6 to 1e6 scene sizes, measured from
+/// the scene's center, from both sides of a triangle, and from a sphere and a cone, inside and
+/// outside.
 std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, Random& random) {
   const dvec3 middle = 0.5 * (dvec3(scene.bounds.lower) + dvec3(scene.bounds.upper));
   std::vector<scenes::Light> lights;
@@ -263,9 +264,9 @@ scenes::Scene grass(std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-// Here, float rounds positions on the side of the cube around the light to a quarter of a
-// millimeter, and rays that missed a blade by that distance were reported as shadowed: 14 with the
-// first seed. For needles, a few still are.
+// In these scenes, float rounds positions on the side of the cube around the light to a quarter of
+// a millimeter. Rays that missed a blade by this distance were once reported as shadowed: 14 with
+// the first seed. For needles, this still happens to a few rays.
 TEST(PencilHits, OfSmallDetailsInLargeScenesAreCorrect) {
   for (const std::uint64_t seed : {1, 2}) {
     const scenes::Scene scene = grass(seed);
@@ -279,7 +280,7 @@ TEST(PencilHits, OfSmallDetailsInLargeScenesAreCorrect) {
 }
 
 // A triangle that a light sees almost edge-on, at a ten-thousandth of its extent, appears narrower
-// than the margin of its edges: two of 34,011 rays were reported as shadowed by it.
+// than the margin of its edges. Two of 34,011 rays were once wrongly reported as shadowed by it.
 TEST(PencilHits, OfTrianglesSeenEdgeOnAreCorrect) {
   const scenes::Scene scene = scenes::load_scene("delfines");
   const Outcome outcome = verified(scene, rays::make_trace_input(scene, image_over(scene, 320, 240),
@@ -288,11 +289,11 @@ TEST(PencilHits, OfTrianglesSeenEdgeOnAreCorrect) {
   EXPECT_EQ(outcome.differing, 0U);
 }
 
-/// Returns corners of the octree's cells, points on their edges and faces, and the same for the
-/// boxes of the hierarchy that the pencils traverse; both also beyond the scene.
+/// Returns corners of the octree's cells and points on their edges and faces, and such points of
+/// the boxes of the hierarchy that the pencils traverse. Some of the points are outside the scene.
 std::vector<scenes::Light> lights_on_borders(const scenes::Scene& scene, Random& random) {
   std::vector<scenes::Light> lights;
-  // Puts one, two or all three axes on a border.
+  // Puts one, two or all three coordinates on a border.
   const auto add = [&](auto border, const dvec3& elsewhere) {
     for (int borders = 1; borders <= 3; ++borders) {
       dvec3 place = elsewhere;
@@ -392,7 +393,8 @@ TEST(PencilHits, OfEveryInstructionSetAreCorrect) {
   }
 }
 
-// Most origins see a light completely or not at all, and few are left to the pencils.
+// From most origins, a light is completely visible or completely hidden; few are left to the
+// pencils.
 TEST(PencilHits, OfBundlesAreMostlyFoundOnce) {
   for (const auto& [name, most_open] :
        {std::pair{"bumpy:triangles=20000", 0.5}, {"casa-de-campo", 0.5}, {"balls:n=2", 0.5}}) {
@@ -478,7 +480,7 @@ rays::TraceResults found_by(const TileBeam& structure, const rays::TraceInput& i
 }
 
 TEST(PencilHits, DoNotDependOnTheThreads) {
-  // The first has enough triangles for its hierarchy to be built by several tasks.
+  // The first scene has enough triangles for its hierarchy to be built by several tasks.
   for (const auto& [name, kind] : {std::pair{"bumpy:triangles=100000", "shadow"},
                                    {"teapot", "shadow"},
                                    {"habitacion", "area:samples=5"},
@@ -508,9 +510,8 @@ TEST(PencilHits, DoNotDependOnTheThreads) {
   }
 }
 
-/// Shadow rays that pass edges of triangles within several roundings, seen from a light several
-/// times as far away as the triangles are from the coordinate origin, where these roundings exceed
-/// K u.
+/// Uses shadow rays that pass edges of triangles within several roundings. The light is several
+/// times as far away as the triangles are from the coordinate origin, so its roundings exceed K u.
 TEST(PencilHits, MatchSingleRaysAtEdgesFarFromTheLight) {
   constexpr int kScenes = 60;
   constexpr std::size_t kRays = 4096;

@@ -51,7 +51,7 @@ std::vector<Contender> contenders_over(const scenes::Scene& scene, Random& rando
         isa == info.parameters.end() ? std::vector<std::string>{""} : isa->choices;
     const Random before = random;
     for (const std::string& set : sets) {
-      random = before;  // the same parameters on all of them
+      random = before;  // the same parameters for all instruction sets
       Spec spec{info.name, {}};
       const Parameters chosen =
           varied ? random_parameters(info, random) : Parameters(info.name, info.parameters, {});
@@ -121,7 +121,7 @@ class Trial {
       const auto [exact, first] = exact_.try_emplace(input.label(), results);
       EXPECT_TRUE(first || exact->second == results)
           << contender.label << " over " << scene_.name << ", " << input.label()
-          << " rays: other bits than exhaustive";
+          << " rays: bits differ from exhaustive";
     }
   }
 

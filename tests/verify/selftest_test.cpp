@@ -147,7 +147,7 @@ TEST(Selftest, PassesCorrectStructures) {
   }
 }
 
-// Its packets round differently from its single rays.
+// Embree's packets round differently from its single rays.
 TEST(Selftest, ListsOfAStructureWithItsOwnArithmeticMayRoundDifferently) {
   const Subject subject(
       accel::registry().choose(parse_spec("embree:mode=stream,robust=false,coherent=true")));
@@ -191,8 +191,8 @@ TEST(Selftest, TracesOnlySupportedPrimitives) {
   }
 }
 
-/// Snapping makes one primitive in a hundred degenerate. In an empty scene, positions would not be
-/// numbers.
+/// Snapping makes one primitive in a hundred degenerate. If no primitive remained, positions would
+/// not be numbers.
 TEST(Selftest, RandomScenesAreNotEmptyAndTheirRaysAreNumbers) {
   for (std::uint64_t seed = 102'500; seed < 104'500; ++seed) {
     const scenes::Scene scene = random_scene(seed, 1);
@@ -242,8 +242,7 @@ TEST(Selftest, DetectsAFaultInEachCheck) {
   }
 }
 
-/// Where a ray passes an edge, a structure with arithmetic of its own may miss, except in closed
-/// meshes.
+/// At an edge, a structure with its own arithmetic may miss, except in closed meshes.
 TEST(Selftest, ALeakIsFoundInClosedMeshesAloneAndReducedToAFewTriangles) {
   for (const char* name : {"random scenes", "scene families", "views"}) {
     EXPECT_EQ(failure_of(name, Fault::kLeaks), "") << name;
@@ -267,7 +266,7 @@ TEST(Selftest, WrongHitsAreReducedToTheNecessaryRayAndPrimitives) {
   const accel::StructureInfo info = faulty(Fault::kNoCones);
   for (const char* name : {"random scenes", "scene families", "views", "heap"}) {
     const CheckOutcome outcome = outcome_of(name, info);
-    if (name == std::string("heap")) {  // of spheres: correct
+    if (name == std::string("heap")) {  // has only spheres, so it passes
       EXPECT_FALSE(outcome.failed.has_value());
       continue;
     }
@@ -278,7 +277,7 @@ TEST(Selftest, WrongHitsAreReducedToTheNecessaryRayAndPrimitives) {
                  wrong_by_comparison(outcome.failed->structure), progress);
     ASSERT_TRUE(minimal.has_value()) << name;
     EXPECT_EQ(minimal->scene.cones.size(), 1U) << name;
-    // A cone that was lost, and what was hit behind it.
+    // The cone that was lost, and the primitive hit behind it, if any.
     EXPECT_EQ(minimal->scene.primitives.size(), outcome.failed->wrong.answer ? 2U : 1U) << name;
     EXPECT_TRUE(minimal->input.size() == 1 || minimal->input.image() != nullptr) << name;
   }

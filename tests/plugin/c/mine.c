@@ -1,4 +1,4 @@
-/* A contender in C, which tests all triangles: put your library's calls in their place. */
+/* A contender in C that tests all triangles; replace these tests with your library's calls. */
 #include <beambench/contender.h>
 #include <math.h>
 

@@ -32,7 +32,7 @@ void hang() {
 
 constexpr std::size_t kMany = 1;  // primitives
 
-/// Faults before any of its functions are called.
+/// Faults that occur before any function of the plug-in is called.
 struct AtLoad {
   AtLoad() {
     if (fault_is("crash at load")) crash();
@@ -41,7 +41,7 @@ struct AtLoad {
   }
 } at_load;
 
-/// Correct: it tests every primitive. Its faults are in its results.
+/// Tests every primitive, so its results are correct unless FAULT names a fault.
 class Faulty : public TraversalAccelerator<Faulty> {
  public:
   explicit Faulty(const Scene& scene) : scene_(&scene) {

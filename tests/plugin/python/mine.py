@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A contender in Python, which tests all triangles: put your library's calls in their place."""
+"""A contender in Python that tests all triangles; replace these tests with your library's calls."""
 
 import json
 import sys

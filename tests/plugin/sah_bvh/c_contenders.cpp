@@ -10,7 +10,7 @@ namespace {
 
 using namespace beambench;
 
-/// A scene made from the arrays, and the structure over it.
+/// A scene made from the arrays of the C interface, and the structure over it.
 struct Wrapped {
   scenes::Scene scene;
   std::unique_ptr<accel::Accelerator> structure{};

@@ -60,7 +60,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
  private:
   struct Node {
     beambench::scenes::Bounds box;
-    std::uint32_t first;  ///< of a leaf: its primitives in order_; else the second child's index
+    std::uint32_t first;  ///< a leaf's first primitive in order_, or the second child's index
     std::uint32_t count;  ///< 0: an interior node, directly followed by its first child
   };
 
@@ -86,14 +86,15 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
     build(middle, end, max_leaf, level + 1);
   }
 
-  /// Depth first; ends early when `test` returns true. `t_max` shrinks while hits are found. A box
-  /// is skipped only if it is entered beyond t_max: at the same t, a lower id may still be found.
+  /// Visits nodes depth first and ends early when `test` returns true. `t_max` shrinks as hits are
+  /// found. A box is skipped only if the ray enters it beyond t_max: at the same t, a primitive
+  /// with a lower id may still be found.
   template <class Counting, class Test>
   bool visit(const beambench::accel::Ray& ray, Counting& counting, Test test,
              const float& t_max) const {
     if (nodes_.empty()) return false;
     const beambench::accel::SlabRay slabs(ray);
-    std::uint32_t stack[64];  // the median halves: 2^32 primitives are 32 levels
+    std::uint32_t stack[64];  // the median halves the list: 2^32 primitives need 32 levels
     int size = 0;
     stack[size++] = 0;
     while (size > 0) {

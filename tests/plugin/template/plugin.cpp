@@ -33,11 +33,11 @@ const beambench::plugin::Plugin beambench_plugin{
           {"mine",
            "a binary hierarchy split at the median",
            beambench::accel::Conformance::kBitExact,
-           {beambench::integer_parameter("max_leaf", 4, 1, 64, "most primitives of a leaf")},
+           {beambench::integer_parameter("max_leaf", 4, 1, 64, "maximum primitives per leaf")},
            build_median_bvh});
       contents.scenes.push_back(
           {"helix",
            "spheres on a helix",
-           {beambench::integer_parameter("spheres", 200, 1, 100000, "how many")},
+           {beambench::integer_parameter("spheres", 200, 1, 100000, "number of spheres")},
            generate_helix});
     }};

@@ -114,7 +114,8 @@ TEST_F(KeptResults, YieldTheSamePictureAfterAnyInterruption) {
       run(request_for(Work::kBeams, picture_, false, false), 1).result_hash;
   for (const Work work : {Work::kBeams, Work::kBlocks, Work::kTiles, Work::kInterlaced}) {
     for (const bool stored : {false, true}) {
-      // A whole run, whose results stay because there is no picture, and are then truncated.
+      // A whole run keeps its results, because it cannot write its picture. They are then
+      // truncated.
       ClusterRequest whole = request_for(work, picture_, false, stored);
       whole.picture = (place_ / "none" / "a.png").string();
       EXPECT_THROW(run(whole, 3), InputError);

@@ -16,7 +16,7 @@
 
 namespace beambench::cluster {
 
-/// Delivers each message after its own random delay, so that they overtake each other.
+/// Delivers each message after its own random delay, so that messages overtake each other.
 class LocalNetwork {
  public:
   LocalNetwork(int processes, unsigned seed, double longest_delay)

@@ -62,7 +62,7 @@ TEST(LeafCode, NamesEachLeafAndNothingElse) {
 }
 
 bool same_line(const accel::beam::ImageLine& a, const accel::beam::ImageLine& b) {
-  // -0 == 0 may differ in the sign: it is compared with, never divided by.
+  // -0 and 0 count as equal: the program only compares with a zero and never divides by it.
   return a.x == b.x && a.y == b.y && a.constant == b.constant;
 }
 
@@ -124,7 +124,7 @@ TEST(TaskMessage, RefusesInvalidTasks) {
     EXPECT_THROW(read_task(std::span(task).first(length), tracer.octree(), view), ProtocolError);
   }
   Random random(1);
-  for (int i = 0; i < 20000; ++i) {  // any input is either refused or a beam: no crash
+  for (int i = 0; i < 20000; ++i) {  // any input is refused or read as a beam, without a crash
     Bytes spoilt = task;
     const std::size_t at = random.below(static_cast<std::uint32_t>(task.size()));
     spoilt[at] = static_cast<std::byte>(random.below(256));

@@ -222,7 +222,7 @@ TEST(Cluster, EndsWithAnErrorIfAProcessDoesNotMatch) {
   const accel::beam::BeamTracer tracer(scene, options_with(4));
   const accel::PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
   LocalNetwork network(3, 1, 0.0);
-  std::vector<std::jthread> consumers;  // they are shut down, or this would not end
+  std::vector<std::jthread> consumers;  // must be shut down, or the test would not end
   for (const ProcessId process : {1, 2}) {
     consumers.emplace_back([&, process] {
       ImageWorker worker(tracer, rays, nullptr);
@@ -276,7 +276,7 @@ TEST(Cluster, FindsTheSequentialHitsForAnyDivisionOfTheImage) {
         const ClusterRun run = led(lead, request, network);
         EXPECT_EQ(run.result_hash, rays::fingerprint(expected))
             << structure << ' ' << name_of(work) << ' ' << processes;
-        // A static division is one message for each consumer, and the end.
+        // A static division takes one message for each consumer, and one for the end.
         if (!is_static(work)) continue;
         const auto consumers = static_cast<std::uint64_t>(processes - 1);
         EXPECT_EQ(run.report.total(&ProcessReport::from_producer).messages, 2 * consumers);

@@ -1,5 +1,5 @@
-// Properties of a simulation's parts: recorded costs, replayed in order, and messages that cost
-// time.
+// Properties of a simulation's parts: recorded costs, tasks replayed in order, and the time that
+// messages cost.
 
 #include <string>
 #include <vector>

@@ -34,7 +34,7 @@ using tests::kSceneDivisions;
 using tests::options_with;
 using verify::SceneWithRays;
 
-/// A scene in parts, each as in its own process.
+/// A scene divided into parts, each handled as if in a separate process.
 class Parts {
  public:
   Parts(const scenes::Scene& scene, const accel::beam::BeamOptions& options,
@@ -194,7 +194,7 @@ auto led_light(const Parts& parts, LocalNetwork& network, Lead lead) {
   return lead(leader);
 }
 
-/// The hits have arrived.
+/// Draws a picture in a divided scene whose primary hits are known.
 DrawnLight drawn_in_parts(const Drawing& drawing, int level, SceneDivision division, int processes,
                           unsigned seed) {
   LocalNetwork network(processes, seed, 0.0003);

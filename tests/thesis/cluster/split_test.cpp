@@ -159,7 +159,7 @@ TEST(SampledCosts, AreWhereTheRaysAre) {
       EXPECT_EQ(found[i], 0.0);
     }
   }
-  // The same number of rays in the sample, each representing four times as many of the image.
+  // The sample has the same number of rays, but each represents four times as many image rays.
   const std::vector<double> finer = costs(400, 400);
   EXPECT_GT(std::accumulate(finer.begin(), finer.end(), 0.0),
             std::accumulate(found.begin(), found.end(), 0.0));
@@ -188,7 +188,7 @@ TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
   }
 }
 
-/// Traces an image by several processes, run as threads.
+/// Traces an image with several processes, which run as threads.
 accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
                                  const accel::beam::BeamOptions& options,
                                  const accel::PrimaryRays& rays, int level, int processes,

@@ -13,11 +13,12 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// Returns how a process that runs `program` ended, and after how long.
+/// How a process ended, and after how long.
 struct Ended {
   int status;
   double seconds;
 };
+/// Runs `program` in a process of its own.
 Ended ended(const std::function<void()>& program) {
   const auto begin = std::chrono::steady_clock::now();
   const pid_t child = ::fork();

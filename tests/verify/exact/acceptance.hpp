@@ -36,7 +36,7 @@ struct Traced {
   const std::vector<Solid>& solids;
   ExactRay ray;
   std::vector<Crossing> crossings;  ///< of the line, in ascending order
-  std::vector<bool> inside;         ///< for each: is it in the interval?
+  std::vector<bool> inside;         ///< for each crossing, whether it is in the interval
 };
 
 inline double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
@@ -231,7 +231,7 @@ class Acceptance {
                double e) const {
     const Vector offset = x - cone.base;
     const Number height = dot(offset, cone.axis);
-    // |across| is within e stretch of the radius there, all of it times |axis|^2.
+    // |across| is within e stretch of the radius at this height; all terms are times |axis|^2.
     const Number across_2 = (square(offset) * cone.length_2 - height.squared()) * cone.length_2;
     const Number signed_radius = cone.base_radius * cone.length_2 + cone.taper * height;
     const Number radius = favors() ? signed_radius.abs() : signed_radius;
@@ -252,8 +252,8 @@ class Acceptance {
   /// Returns whether a point, moved perpendicularly onto the surface continued beyond its rims, is
   /// between the rims: `height` and `across_2` as in `is_near`.
   static bool is_over(const Cone& cone, const Number& height, const Number& across_2) {
-    // From the base, (across - base_radius) taper + height along the line of the surface, times
-    // |axis|^2, where the apex is at taper^2 + |axis|^2.
+    // The place along the slanted line, measured from the base, is (across - base_radius) taper +
+    // height; the apex is at taper^2 + |axis|^2. Both are multiplied by |axis|^2.
     const Number place = (height - cone.base_radius * cone.taper) * cone.length_2;
     const Number apex = (cone.taper.squared() + cone.length_2) * cone.length_2;
     return sign_with_root(place, cone.taper, across_2) >= 0 &&

@@ -13,7 +13,7 @@
 
 namespace beambench::exact {
 
-/// The outcome of a decision that would need too much exact arithmetic: for or against the claim.
+/// The outcome of decisions that exact arithmetic cannot afford: for or against the claim.
 enum class Doubt { kFavors, kOpposes };
 
 inline bool is_near_point(const ExactRay& ray, const Vector& point, const Number& within_2) {
@@ -66,9 +66,8 @@ inline bool has_no_zero(const Number& value, const Vector& gradient, const Numbe
   return value.abs() > Number(change);
 }
 
-/// Returns whether the line is certainly away from a rim. With base and direction of the axis, the
-/// ray crosses the plane of the rim at distance |w| / |climb| from the center, where w is linear in
-/// the origin of the ray.
+/// Returns whether the line is certainly away from a rim. The line crosses the plane of the rim at
+/// distance |w| / |climb| from the rim's center, where w is linear in the origin of the ray.
 inline bool is_far_from_rim(const ExactRay& ray, const Cone& cone, const Vector& center,
                             const Number& radius, double within) {
   const Vector offset = ray.origin - center;
@@ -122,8 +121,9 @@ inline std::array<int, 2> crossing_counts(const Cone& cone, const ExactRay& ray)
   return counts;
 }
 
-/// Against the claim: near only if a ray shifted by `within` crosses the cone differently. In favor
-/// of it: far only if no function that vanishes on the boundary can vanish that close.
+/// Returns whether the line is near the boundary. With Doubt::kOpposes, it is near only if a ray
+/// shifted by `within` crosses the cone differently. With Doubt::kFavors, it is far only if no
+/// function that vanishes on the boundary can vanish within this distance.
 inline bool is_near_boundary(const Cone& cone, const ExactRay& ray, double within, Doubt doubt) {
   if (doubt == Doubt::kFavors) {
     return !(is_far_from_silhouette(ray, cone, within) &&

@@ -16,7 +16,7 @@
 
 namespace beambench::exact {
 
-/// The choice of the rays of a family: origins, ends and lengths of directions.
+/// How the rays of a family are drawn: origins, ends and lengths of directions.
 struct RayStyle {
   enum class Start { kAround, kOnSurface, kInPlane, kAny };
   enum class Limits { kNone, kSegment, kOwnT, kAny };

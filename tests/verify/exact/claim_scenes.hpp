@@ -103,7 +103,7 @@ class Modeller {
   std::size_t turn_;
 };
 
-/// Small objects on a square of size 1e3 to 1e6.
+/// Returns small objects on a square of size 1e3 to 1e6.
 inline scenes::Scene huge_floor(Random& random) {
   Modeller modeller("huge floor", random.below(3));
   const double height = random.below(2) == 0 ? 0.0 : random.uniform(-2.0, 2.0);
@@ -113,8 +113,8 @@ inline scenes::Scene huge_floor(Random& random) {
   return std::move(modeller).build();
 }
 
-/// Surfaces above each other: squares, concentric spheres or coaxial cones, with gaps from a
-/// hundredth to several hundred times K u.
+/// Returns surfaces one above another: squares, concentric spheres or coaxial cones, with gaps from
+/// a hundredth to several hundred times K u.
 inline scenes::Scene stack(Random& random) {
   Modeller modeller("stack", random.below(3));
   const double place = std::array<double, 4>{0.0, 0.0, 1.0, 30.0}[random.below(4)];
@@ -203,7 +203,7 @@ inline scenes::Scene times_two_to(int power, scenes::Scene scene) {
   return scene;
 }
 
-/// Spheres, cones and concave polygons at random.
+/// Returns random spheres, cones and concave polygons.
 inline scenes::Scene general(Random& random) {
   return verify::random_scene(random.bits() % 100'000, 8);
 }

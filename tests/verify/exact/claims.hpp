@@ -49,8 +49,8 @@ class ClaimMaker {
     if (std::isfinite(t)) claims_.push_back(accel::Hit{t, primitive});
   }
 
-  /// Returns the parameter at a distance of -100 to 100 times K u across the surface, or along the
-  /// ray.
+  /// Returns the crossing's parameter, moved by -100 to 100 times K u across the surface or along
+  /// the ray.
   double moved(const Crossing& crossing) {
     const double s = crossing.at.rounded();
     const double unit =

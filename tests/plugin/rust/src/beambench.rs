@@ -1,5 +1,5 @@
-//! beambench's C interface, version 1, as in <beambench/contender.h>, which explains each member;
-//! and the trait by which a library is a contender.
+//! beambench's C interface, version 1, as in <beambench/contender.h>, which explains each member,
+//! and the trait that a library implements to be a contender.
 use std::ffi::{c_char, c_void, CStr};
 
 const INTERFACE: u32 = 1;
@@ -22,7 +22,7 @@ pub struct Triangle {
     pub primitive: u32,
 }
 
-/// The arrays of spheres and cones are left out: a library of triangles gets none.
+/// The arrays of spheres and cones are omitted because a library of triangles never receives any.
 #[repr(C)]
 pub struct Scene {
     size: usize,
@@ -58,7 +58,7 @@ pub struct Batch {
     row: usize,
 }
 
-/// An empty array may be null.
+/// Returns an array as a slice. An empty array may be null.
 unsafe fn slice<'a, T>(data: *const T, count: usize) -> &'a [T] {
     if count == 0 { &[] } else { std::slice::from_raw_parts(data, count) }
 }
@@ -69,7 +69,7 @@ pub trait Tracer: Sync + Sized {
     const DESCRIPTION: &'static CStr;
     /// The library and its version.
     const VERSION: &'static CStr;
-    /// Whether rays may begin at t_min > 0; batches with others are declined if not.
+    /// Whether rays may begin at t_min > 0. If not, batches with such rays are declined.
     const HAS_T_MIN: bool = true;
 
     fn build(scene: &Scene) -> Self;
@@ -109,7 +109,7 @@ impl Table {
             bytes: None,
         }
     }
-    /// Returns the table if it has that version of the interface.
+    /// Returns the table. Sets `count` to 1, or to 0 if `version` is another interface version.
     pub unsafe fn export(&'static self, version: u32, count: *mut u32) -> *const Table {
         *count = (version == INTERFACE) as u32;
         self

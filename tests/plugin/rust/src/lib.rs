@@ -1,4 +1,4 @@
-//! A contender in Rust, which tests all triangles: put your library's calls in their place.
+//! A contender in Rust that tests all triangles; replace these tests with your library's calls.
 mod beambench;
 use beambench::{Ray, Scene, Tracer};
 use std::ffi::CStr;
