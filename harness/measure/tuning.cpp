@@ -53,10 +53,11 @@ std::vector<accel::StructureChoice> best_embree(const accel::Registry& structure
 }
 
 scenes::Camera tuning_camera(const scenes::Camera& camera) {
-  constexpr float kDegrees = 15.0F;
+  constexpr float kShare = 0.25F;
   scenes::Camera turned = camera;
-  const glm::mat3 turn(glm::rotate(glm::mat4(1.0F), glm::radians(kDegrees), camera.up));
-  turned.from = camera.at + turn * (camera.from - camera.at);
+  const float angle = glm::radians(kShare * camera.angle);
+  const glm::mat3 turn(glm::rotate(glm::mat4(1.0F), angle, camera.up));
+  turned.at = camera.from + turn * (camera.at - camera.from);
   return turned;
 }
 
@@ -89,8 +90,7 @@ std::vector<std::size_t> fastest(const std::map<std::size_t, double>& times,
   for (const auto& [ms, index] : order) {
     if (kept.size() < kMeasuredSets) kept.push_back(index);
   }
-  if (kept.empty()) kept.push_back(all.front());
-  return kept;
+  return kept.empty() ? all : kept;
 }
 
 }  // namespace beambench::measure

@@ -28,8 +28,9 @@ inline constexpr const char* kBestEmbreeText = "embree:mode=best";
 /// most `kMaxParameterSets`.
 std::vector<accel::StructureChoice> best_embree(const accel::Registry& structures);
 
-/// Returns the tuning camera: turned by 15 degrees about the point that it looks at, around its
-/// upward direction.
+/// Returns the tuning camera: turned about its own position, around its upward direction, by a
+/// quarter of its field of view. Three quarters of what it sees are in the view, also in a closed
+/// room, which a camera that moves may leave.
 scenes::Camera tuning_camera(const scenes::Camera& camera);
 
 /// Times the block's cells with the tuning camera of its view: each is built once and traced a few
@@ -39,7 +40,7 @@ scenes::Camera tuning_camera(const scenes::Camera& camera);
 void time_candidates(const Block& block, const BlockWatch& watch);
 
 /// Returns the indices of the fastest candidates, at most `kMeasuredSets`. If no candidate has a
-/// time, returns the first one, whose measurement will show why. `times` is keyed by index.
+/// time, returns `all`: none may be preferred. `times` is keyed by index.
 std::vector<std::size_t> fastest(const std::map<std::size_t, double>& times,
                                  const std::vector<std::size_t>& all);
 
