@@ -104,8 +104,9 @@ std::optional<double> warm_up(std::chrono::duration<double> duration);
 /// the clock). Returns nothing for fewer than 40 slices.
 std::optional<double> noise(std::span<const double> slices);
 
-/// Returns the time in milliseconds of a trace that costs a structure nothing: the median of
-/// several traces, after one that is not timed. `core` is the core to pin to; -1: any.
+/// Returns the time in milliseconds of a trace that costs a structure nothing: the fastest of
+/// several traces, after one that is not timed. It is subtracted from times of blocks, which are
+/// those of their fastest repetition, too. `core` is the core to pin to; -1: any.
 double harness_ms(int core, const std::function<void()>& trace);
 
 /// Opens an event of the calling thread. Returns a file descriptor, or -1 with errno set
