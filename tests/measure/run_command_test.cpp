@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
@@ -123,11 +124,12 @@ TEST_F(RunCommand, GoogleBenchmarksFlagsWork) {
       run("tiny.json -o record --benchmark_filter=null --benchmark_repetitions=7 "
           "--benchmark_context=who=me --benchmark_min_time=3");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_TRUE(
-      scenes::says(result.err, {"--benchmark_min_time has no effect", "after 7 repetitions"}));
   const json google = json::parse(read_text(folder_.path() / "record/google-benchmark.json"));
   EXPECT_EQ(google["context"]["who"], "me");
-  EXPECT_EQ(google["benchmarks"].size(), 7U);
+  const std::size_t repetitions = google["benchmarks"].size();
+  EXPECT_GE(repetitions, 7U);  // those that other processes disturb are repeated
+  EXPECT_TRUE(scenes::says(result.err, {"--benchmark_min_time has no effect",
+                                        fmt::format("after {} repetitions", repetitions)}));
 }
 
 TEST_F(RunCommand, WrongRequestsGetOneSentence) {
