@@ -136,9 +136,10 @@ struct Survivors {
 
   HWY_INLINE TriangleCorners from(std::size_t first) const {
     const Ints packed = hn::Load(IntTag(), corners.data() + first);
-    const Ints byte = hn::Set(IntTag(), 255);
-    return {hn::And(packed, byte), hn::And(hn::ShiftRight<8>(packed), byte),
-            hn::And(hn::ShiftRight<16>(packed), byte), hn::FirstN(Tag(), count - first)};
+    // Lanes without a triangle are not initialized, but must not index beyond a Table32 either.
+    const Ints last = hn::Set(IntTag(), Meshlet::kMaxVertices - 1);
+    return {hn::And(packed, last), hn::And(hn::ShiftRight<8>(packed), last),
+            hn::And(hn::ShiftRight<16>(packed), last), hn::FirstN(Tag(), count - first)};
   }
   std::size_t triangle(std::size_t number) const {
     return static_cast<std::uint32_t>(corners[number]) >> 24U;
