@@ -149,14 +149,18 @@ std::optional<double> noise(std::span<const double> slices) {
   return middle > 0.0 ? (high - middle) / middle : 0.0;
 }
 
+double least_ms(int times, const std::function<void()>& work) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < times; ++i) least = std::min(least, time_phase(work).wall_ms);
+  return least;
+}
+
 double harness_ms(int core, const std::function<void()>& trace) {
   constexpr int kTraces = 9;
   const PinnedThread pin(core);
   const MeasuringFloatMode mode;
   trace();
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kTraces; ++i) least = std::min(least, time_phase(trace).wall_ms);
-  return least;
+  return least_ms(kTraces, trace);
 }
 
 int open_perf_event(const perf_event_attr& attributes) {

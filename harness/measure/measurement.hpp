@@ -104,6 +104,9 @@ std::optional<double> warm_up(std::chrono::duration<double> duration);
 /// the clock). Returns nothing for fewer than 40 slices.
 std::optional<double> noise(std::span<const double> slices);
 
+/// Returns the wall time in milliseconds of the fastest of several runs of `work`.
+double least_ms(int times, const std::function<void()>& work);
+
 /// Returns the time in milliseconds of a trace that costs a structure nothing: the fastest of
 /// several traces, after one that is not timed. It is subtracted from times of blocks, which are
 /// those of their fastest repetition, too. `core` is the core to pin to; -1: any.

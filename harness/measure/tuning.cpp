@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -22,11 +21,7 @@ double time_candidate(const PlannedCell& cell, Task& task, int traces) {
   task.require_support(cell.structure);
   const MeasuringFloatMode mode;
   const auto structure = cell.structure.build(task.scene(), task.workload());
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < traces; ++i) {
-    least = std::min(least, time_phase([&] { task.trace(*structure); }).wall_ms);
-  }
-  return least;
+  return least_ms(traces, [&] { task.trace(*structure); });
 }
 
 }  // namespace

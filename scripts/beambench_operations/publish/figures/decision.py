@@ -23,17 +23,13 @@ class Row:
     best: dict[str, Ratio]  # over Embree's fastest correct mode
     watertight: dict[str, Ratio]  # over its fastest watertight mode
     by_scene: dict[str, dict[str, Ratio]]  # by scene: over Embree's fastest correct mode
+    shown: str  # the contender with the largest mean, whose ratios are shown
     tied: list[str]  # contenders that are not clearly slower than the one shown
 
     @property
     def winner(self) -> str:
         """The contender with the largest mean over Embree; `embree` if all are slower."""
         return self.shown if self.best[self.shown].value > 1 else "embree"
-
-    @property
-    def shown(self) -> str:
-        """The contender with the largest mean, whose ratios are shown."""
-        return max(self.best, key=lambda own: self.best[own].value)
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -68,7 +64,8 @@ def _row(cells: Cells, kind: str) -> Row:
         best,
         {name: geometric_mean(list(own.values())) for name, own in over_watertight.items()},
         {scene: {name: over_best[name][scene] for name in _OWN} for scene in cells.scenes},
-        [name for name in others if _rank(cells, name, shown, kind) != "behind"],
+        shown,
+        [name for name in others if cells.mean(name, shown, kind=kind).rank != "behind"],
     )
 
 
@@ -81,20 +78,6 @@ def _over(cells: Cells, name: str, kind: str, rows: pd.DataFrame) -> dict[str, R
         )
         for scene in cells.scenes
     }
-
-
-def _rank(cells: Cells, name: str, fastest: str, kind: str) -> str:
-    """Returns the rank of a contender by its times relative to the fastest's, over all scenes."""
-    ratios = [
-        ratio_of(
-            "trace",
-            cells.row(name, scene=scene, kind=kind),
-            cells.row(fastest, scene=scene, kind=kind),
-            cells.files,
-        )
-        for scene in cells.scenes
-    ]
-    return geometric_mean(ratios).rank
 
 
 def _is_watertight(parameters: str) -> bool:

@@ -1,7 +1,5 @@
 """Trace times without the harness's share, relative to one contender on the same rays."""
 
-from collections.abc import Mapping
-
 import pandas as pd
 
 from beambench.analysis import Ratio
@@ -10,19 +8,6 @@ from beambench_report.base.cell_files import identity
 from beambench_report.base.files import Problem
 
 NET = "trace_net_ms_median"
-
-
-def net_ratios(cells: Cells, base: str, contenders: Mapping[str, str]) -> pd.Series:
-    """Returns the ratios of timed cells by name in `contenders`, scene and ray kind."""
-    found = {}
-    for kind in dict.fromkeys(cells.rows["ray_kind"]):
-        for scene in cells.scenes:
-            view = {"scene": scene, "ray_kind": kind}
-            for name, contender in contenders.items():
-                if cells.having(contender, **view)["timed"].any():
-                    own, under = (cells.row(one, **view)[NET] for one in (contender, base))
-                    found[name, scene, kind] = own / under
-    return pd.Series(found).rename_axis(["name", "scene", "kind"])
 
 
 def paired_net_ratio(cells: Cells, over: pd.Series, under: pd.Series) -> Ratio:
