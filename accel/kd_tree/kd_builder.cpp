@@ -206,8 +206,8 @@ class Builder {
     return ReferenceEstimate(taken(root()), divide);
   }
 
-  /// With spatial median planes, throws if a small part of the items shows that there will be too
-  /// many references.
+  /// Throws if a small part of the items shows that there will be too many references. Checks only
+  /// spatial median planes.
   void require_few_references() const {
     if (options_.builder != KdTreeOptions::Builder::kMedian) return;
     const bool exceeds = part_surely_exceeds(

@@ -264,10 +264,10 @@ class BundleTests {
     return ended;
   }
 
-  /// Returns the origins from which a sphere may hide an apex, after hiding all apexes from those
-  /// from which it certainly covers the whole light. At a fraction s of the way, the line from an
-  /// origin to an apex is at most s times the ball's radius away from the line to the center. A ray
-  /// misses the sphere if it begins outside and moves away from it.
+  /// Returns the origins from which a sphere may hide an apex. First hides all apexes from the
+  /// origins from which the sphere certainly covers the whole light. At a fraction s of the way,
+  /// the line from an origin to an apex is at most s times the ball's radius away from the line to
+  /// the center. A ray misses the sphere if it begins outside and moves away from it.
   HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape) {
     const OneShape of{*shapes_, shape};
     const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),

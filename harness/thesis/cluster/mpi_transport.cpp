@@ -21,8 +21,8 @@ Message receive(MPI_Comm processes, const MPI_Status& coming) {
   return message;
 }
 
-/// At first polls without a pause, so that a quick reply is received immediately; then sleeps for
-/// increasing times, to leave the processor to other processes.
+/// The pauses between polls: none at first, so that a quick reply is received immediately, then
+/// increasing ones, to leave the processor to other processes.
 class Backoff {
  public:
   using Clock = std::chrono::steady_clock;

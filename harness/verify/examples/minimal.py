@@ -89,7 +89,7 @@ class Case:
 
 
 def fewest(count: int, holds: Callable[[np.ndarray], bool]) -> np.ndarray:
-    """Returns indices for which `holds` is true, none of which can be left out."""
+    """Returns indices for which `holds` is true, and becomes false if any of them is left out."""
     left, size = np.arange(count), count // 2
     while size >= 1:
         at, shrunk = 0, False
