@@ -222,13 +222,8 @@ std::vector<std::string> reasons_for_care(const measure::Run& run) {
     reasons.push_back(
         fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *conditions.noise));
   }
-  if (conditions.load > measure::kIdleLoad) {
-    reasons.push_back(fmt::format("other work was running (load {:.2f})", conditions.load));
-  } else if (conditions.other_load.value_or(0.0) > measure::kIdleLoad) {
-    reasons.push_back(
-        fmt::format("other work was running (load up to {:.2f} besides the run's own)",
-                    *conditions.other_load));
-  }
+  if (const auto other = measure::describe_other_work(conditions.other_work))
+    reasons.push_back(*other);
   if (const auto throttled = measure::describe(conditions.throttling))
     reasons.push_back(*throttled);
   if (static_cast<double>(timed - imprecise) < kPrecisePart * static_cast<double>(timed)) {

@@ -56,7 +56,7 @@ Analysis analyze(const measure::Run& run);
 std::vector<Overhead> largest_overheads(const measure::Run& run);
 
 /// Returns why the times of a run cannot be fully trusted: an unsteady machine, noise of equal
-/// work, other work (a load average), a CPU quota, missed precision, too few repetitions for an
+/// work, other work, a CPU quota, missed precision, too few repetitions for an
 /// interval. Each reason is a clause; if there are none, the times can be trusted.
 std::vector<std::string> reasons_for_care(const measure::Run& run);
 

@@ -21,7 +21,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/interruption.hpp"
 #include "harness/measure/division.hpp"
-#include "harness/measure/record/machine.hpp"
+#include "harness/measure/record/other_work.hpp"
 #include "harness/measure/record/run_log.hpp"
 #include "harness/measure/record/shard.hpp"
 #include "harness/measure/sweep_run.hpp"
@@ -170,26 +170,26 @@ std::string resume_command(const std::filesystem::path& folder) {
                      shell_quoted(folder.string()));
 }
 
-/// Waits until the load average is that of an idle machine. Throws InputError if this takes too
-/// long.
+/// Waits until other work is too little to disturb times. Throws InputError if this takes too long.
 void wait_for_quiet(double minutes) {
   const base::Stopwatch watch;
   for (bool first = true;; first = false) {
-    const double load = measure::load_average();
-    if (load <= measure::kIdleLoad) return;
+    const measure::OtherWork other;
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const double busy = other.processors().value_or(0.0);
+    if (busy <= measure::kQuiet) return;
     if (watch.seconds() >= 60.0 * minutes) {
       throw InputError(
-          fmt::format("--require-quiet: the load average is {:.2f}, above {}, after {:g} minutes; "
-                      "stop the other "
-                      "work, or wait longer",
-                      load, measure::kIdleLoad, minutes));
+          fmt::format("--require-quiet: after {:g} minutes, other work still keeps {:.2f} "
+                      "processors busy, more than {}; stop it, or wait longer",
+                      minutes, busy, measure::kQuiet));
     }
     if (first) {
       base::print_message(
-          stderr, fmt::format("Waiting up to {:g} minutes for a load average of {} (now {:.2f}).\n",
-                              minutes, measure::kIdleLoad, load));
+          stderr, fmt::format("Waiting up to {:g} minutes until other work, which keeps {:.2f} "
+                              "processors busy, keeps at most {} busy.\n",
+                              minutes, busy, measure::kQuiet));
     }
-    std::this_thread::sleep_for(std::chrono::seconds(1));
   }
 }
 
@@ -265,8 +265,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->excludes(resume);
   command
       ->add_option("--require-quiet", request->quiet_minutes,
-                   "Wait until the load average is at most 0.5, up to this time, and end with exit "
-                   "code 2 if it stays above")
+                   "Wait until other work keeps at most 0.1 processors busy, up to this time, and "
+                   "end with exit code 2 if it keeps more busy")
       ->type_name("MINUTES")
       ->check(number_in(0.0, 1e5));
   add_verbose_option(*command, request->verbose);

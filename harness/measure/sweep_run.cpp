@@ -27,6 +27,7 @@
 #include "harness/measure/record/conditions.hpp"
 #include "harness/measure/record/machine.hpp"
 #include "harness/measure/record/manifest.hpp"
+#include "harness/measure/record/other_work.hpp"
 #include "harness/measure/record/robust_statistics.hpp"
 #include "harness/measure/record/run_log.hpp"
 #include "harness/measure/tuning.hpp"
@@ -96,6 +97,7 @@ class SweepRun {
             config.threads, config.warm_up, facts_of(options.shard), options.root)),
         log_(open_log()),
         throttling_(options.root, manifest_.measurement.throttling),
+        other_work_(options.root),
         names_(names_of(plan)),
         views_(unfinished(std::move(plan))),
         progress_(count_cells(), messages,
@@ -108,8 +110,12 @@ class SweepRun {
       const PinnedThread pin(core_);
       manifest_.measurement.noise = warm_up(config_.warm_up);
     }
+    manifest_.measurement.other_work = other_work_.processors();
     if (const auto warning = noise_warning(manifest_.measurement.noise)) {
       manifest_.uncontrolled.push_back(*warning);
+    }
+    if (const auto other = describe_other_work(manifest_.measurement.other_work)) {
+      manifest_.uncontrolled.push_back(fmt::format("Before the run, {}.", *other));
     }
     manifest_.measurement.hardware_problem = HardwareCounters().problem();
     for (const std::string& line : preflight(manifest_)) {
@@ -122,7 +128,7 @@ class SweepRun {
     }
     options_.begun(log_.folder());
     measure();
-    log_.end(utc_now());
+    log_.end(utc_now(), other_work_.processors());
     return log_.folder();
   }
 
@@ -305,7 +311,7 @@ class SweepRun {
                         config_.second_traces,
                         options_.tries,
                         core_};
-      log_.begin_block(open.view.name(), number, load_average());
+      log_.begin_block(open.view.name(), number, other_work_.processors());
       const BlockWatch watch{[&](const Json& event) { take(open, event); },
                              [&](std::optional<std::size_t>) {
                                options_.before_each_piece();
@@ -428,6 +434,7 @@ class SweepRun {
   std::uint64_t log_bytes_ = 0;                   ///< bytes that the earlier part wrote
   RunLog log_;
   ThrottlingWatch throttling_;
+  OtherWork other_work_;
   std::vector<PlannedName> names_;  ///< the names of all cells
   std::vector<OpenView> views_;
   base::Progress progress_;

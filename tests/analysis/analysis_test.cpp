@@ -38,12 +38,14 @@ TEST(ReasonsForCare, AreNoneWithoutDisturbances) {
             "Times: measured on a quiet machine, as precisely as requested\n");
 }
 
-TEST(ReasonsForCare, AreTheNoiseAndTheLoad) {
+TEST(ReasonsForCare, AreTheNoiseAndOtherWork) {
   measure::Run run = quiet_run();
+  run.manifest["measurement"]["other_work"] = 0.05;
+  EXPECT_TRUE(reasons_for_care(run).empty());
   run.manifest["measurement"]["noise"] = 0.12;
-  run.manifest["machine"]["load_average"] = 1.5;
+  run.manifest["measurement"]["other_work"] = 1.5;
   EXPECT_EQ(reasons_for_care(run), (Reasons{"equal work took up to 12% longer than usual",
-                                            "other work was running (load 1.50)"}));
+                                            "other work kept 1.50 processors busy"}));
   EXPECT_TRUE(
       says(describe_verdicts(analyze(run)), {"Times: use with care: equal work", "; other work"}));
 }

@@ -66,7 +66,7 @@ inline nlohmann::ordered_json quiet_manifest() {
           {"finished_utc", "2026-01-01T01:00:00Z"},
           {"program",
            {{"commit", "abc"}, {"dirty", false}, {"build_type", "Release"}, {"flags", "-O3"}}},
-          {"machine", {{"id", "0123456789abcdef"}, {"load_average", 0.0}}},
+          {"machine", {{"id", "0123456789abcdef"}}},
           {"measurement",
            {{"isa", "AVX2"}, {"threads", 1}, {"noise", nullptr}, {"throttling", nullptr}}},
           {"uncontrolled", nlohmann::ordered_json::array()}};

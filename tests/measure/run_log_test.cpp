@@ -279,8 +279,9 @@ TEST(RunLog, LaterEventsChangeTheManifest) {
     RunLog log = RunLog::create(folder.path());
     log.begin(small_manifest(), {}, {});
     events_of(log).warn("The rays never hit.");
-    log.begin_block("tetra", 0, 1.5);
+    log.begin_block("tetra", 0, 0.75);
     log.begin_block("tetra", 1, 0.5);
+    log.begin_block("tetra", 2, std::nullopt);
     log.set_throttling({10, 3, 0.5});
     log.set_throttling({20, 4, 0.75});
   }
@@ -288,7 +289,7 @@ TEST(RunLog, LaterEventsChangeTheManifest) {
   EXPECT_FALSE(run.is_ended());
   EXPECT_EQ(run.manifest.at("uncontrolled"), Events({"It is noisy.", "The rays never hit."}));
   EXPECT_EQ(run.manifest.at("measurement").at("throttling").at("periods"), 20);
-  EXPECT_EQ(run.manifest.at("measurement").at("highest_load"), 1.5);
+  EXPECT_EQ(run.manifest.at("measurement").at("other_work"), 0.5);
   {
     auto resumed = small_manifest();
     resumed["part_begun_utc"] = "later";

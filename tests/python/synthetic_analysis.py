@@ -65,7 +65,7 @@ def _manifest(source: dict[str, Any], machines: list[str]) -> dict[str, Any]:
         "run_id": "",
         "finished_utc": "2026-01-02T03:08:15Z",
         "program": program,
-        "machine": {"load_average": 0.0, **source.get("machine", {}), "id": machines[0]},
+        "machine": {**source.get("machine", {}), "id": machines[0]},
         "measurement": measurement,
         "uncontrolled": [],
         "shards": [

@@ -224,15 +224,13 @@ def test_who_was_left_out_has_a_row_with_the_reason(run_folder: Path) -> None:
 
 
 def test_times_that_are_worth_little_say_why(run_folder: Path) -> None:
-    write_manifest(run_folder, measurement={"noise": 0.01}, machine={"load_average": 0.1})
+    write_manifest(run_folder, measurement={"noise": 0.01, "other_work": 0.1})
     assert "Equal work" not in text_of(run_folder)
-    write_manifest(
-        run_folder, measurement={"noise": 0.31}, machine={"cpu": "x", "load_average": 3.5}
-    )
+    write_manifest(run_folder, measurement={"noise": 0.31, "other_work": 2.5}, machine={"cpu": "x"})
     text = text_of(run_folder)
     assert "Take the times with care" in text
     assert "Equal work took up to 31% longer than usual" in text
-    assert "Other work was running (load 3.50)" in text
+    assert "Other work kept 2.50 processors busy" in text
 
 
 def test_times_of_a_throttled_run_say_so(run_folder: Path) -> None:
@@ -387,7 +385,7 @@ def test_a_machine_that_nothing_is_known_of_was_not_quiet(run_folder: Path) -> N
     text = text_without_care()
     assert "Whether the machine was quiet is not recorded" in text
     assert "The machine was quiet" not in text
-    write_manifest(run_folder, measurement={"noise": 0.01}, machine={"load_average": 0.1})
+    write_manifest(run_folder, measurement={"noise": 0.01, "other_work": 0.1})
     assert "The machine was quiet" in text_without_care()
 
 

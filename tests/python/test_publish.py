@@ -42,7 +42,7 @@ from beambench_report.base.run_log import logged_cells
 from program import BINARY
 from synthetic_run import synthetic_rows, write_cell, write_run
 
-HERE = Provenance("c0ffee", False, "machine-1", "A Xeon", 2, "3.13.5", 0.01, 0.2)
+HERE = Provenance("c0ffee", False, "machine-1", "A Xeon", 2, "3.13.5", 0.01, 0.0)
 ELSEWHERE = replace(HERE, machine_id="machine-2")
 
 needs_binary = pytest.mark.skipif(not BINARY.exists(), reason="beambench is not built")

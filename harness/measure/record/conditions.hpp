@@ -41,6 +41,9 @@ nlohmann::ordered_json to_json(const std::optional<Throttling>& throttling);
 /// Returns a warning if the times of equal work before the run vary too much (`noise`).
 std::optional<std::string> noise_warning(const std::optional<double>& noise);
 
+/// Returns "other work kept 0.80 processors busy"; nothing if that is little or unknown (`kQuiet`).
+std::optional<std::string> describe_other_work(const std::optional<double>& processors);
+
 /// Returns a warning if the CPU quota is less than that many threads can use.
 std::optional<std::string> quota_warning(const std::optional<double>& quota, int threads);
 
@@ -51,10 +54,8 @@ std::optional<std::string> describe(const std::optional<Throttling>& throttling)
 /// Conditions that disturb all times of a run.
 struct Conditions {
   std::optional<double> noise;           ///< noise of equal work, before the run (`noise`)
-  double load;                           ///< the load average before the run
+  std::optional<double> other_work;      ///< processors that others kept busy during the run
   std::optional<Throttling> throttling;  ///< throttling during the run
-  /// The highest load average at the start of a block, minus the run's own threads.
-  std::optional<double> other_load{};
 };
 
 /// Returns the conditions stated in the manifest of a run, or in a `joined_manifest`.

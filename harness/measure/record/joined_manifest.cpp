@@ -35,7 +35,8 @@ std::vector<Json> distinct(const std::vector<Json>& values) {
 
 /// Returns whether the largest of a member's values is kept, since larger values are worse.
 bool is_disturbance(std::string_view name) {
-  return name == "load_average" || name == "highest_load" || name == "noise";
+  return name == "other_work" || name == "load_average" || name == "highest_load" ||
+         name == "noise";
 }
 
 Json largest(const std::vector<Json>& values) {

@@ -105,11 +105,6 @@ std::string turbo_state() {
 
 }  // namespace
 
-double load_average() {
-  std::array<double, 1> load{};
-  return ::getloadavg(load.data(), 1) == 1 ? load[0] : 0.0;
-}
-
 Machine inspect_machine(const fs::path& root) {
   struct utsname system {};
   ::uname(&system);
@@ -126,7 +121,6 @@ Machine inspect_machine(const fs::path& root) {
           chosen(first_line("/sys/kernel/mm/transparent_hugepage/enabled")),
           first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor"),
           turbo_state(),
-          load_average(),
           rays::fingerprint(whole_file("/proc/self/exe"))};
 }
 
@@ -160,10 +154,6 @@ std::vector<std::string> disturbances(const Machine& machine) {
     found.emplace_back("The system does not report whether its clock is boosted (turbo).");
   } else if (machine.turbo == "on") {
     found.emplace_back("The clock may be boosted (turbo), so it depends on temperature and load.");
-  }
-  if (machine.load > kIdleLoad) {
-    found.push_back(
-        fmt::format("Other work was running: the load average was {:.2f}.", machine.load));
   }
   if (machine.virtual_machine) {
     found.emplace_back("This is a virtual machine: others may use the processor at any time.");

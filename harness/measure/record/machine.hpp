@@ -25,9 +25,6 @@ struct BuildInfo {
 
 const BuildInfo& build_info();
 
-/// A load average above this disturbs times.
-constexpr double kIdleLoad = 0.5;
-
 struct Machine {
   std::string id;  ///< see machine_id
   std::string cpu;
@@ -43,15 +40,11 @@ struct Machine {
   std::string huge_pages;         ///< transparent huge pages: "always", "madvise", "never" or empty
   std::string governor;           ///< frequency governor of the first core; empty: unknown
   std::string turbo;              ///< "on", "off", or empty: unknown
-  double load;                    ///< one-minute load average when inspected
   std::uint64_t executable_hash;  ///< of this program's file
 };
 
 /// Inspects this machine; the quota is read below `root`, as in `cpu_quota`.
 Machine inspect_machine(const std::filesystem::path& root = "/");
-
-/// Returns the system's load average over the last minute; 0 if it is unknown.
-double load_average();
 
 /// Returns sixteen hexadecimal digits that identify a machine without naming it: a fingerprint of
 /// the processor (maker, family, model and stepping, since different virtual machines report the

@@ -61,8 +61,7 @@ Json machine_json(const Machine& machine) {
           {"page_bytes", machine.page_bytes},
           {"transparent_huge_pages", text_or_null(machine.huge_pages)},
           {"governor", text_or_null(machine.governor)},
-          {"turbo", text_or_null(machine.turbo)},
-          {"load_average", machine.load}};
+          {"turbo", text_or_null(machine.turbo)}};
 }
 
 Json measurement_json(const Manifest& manifest) {
@@ -77,6 +76,7 @@ Json measurement_json(const Manifest& manifest) {
           {"mxcsr", fmt::format("0x{:04x}", facts.control_word)},
           {"warm_up_seconds", facts.warm_up_seconds},
           {"noise", facts.noise ? Json(*facts.noise) : Json()},
+          {"other_work", facts.other_work ? Json(*facts.other_work) : Json()},
           {"throttling", to_json(facts.throttling)},
           {"hardware_counters",
            facts.hardware_problem.empty() ? Json(kHardwareEvents) : Json(facts.hardware_problem)},
@@ -127,11 +127,14 @@ std::string hardware_line(const Manifest& manifest) {
 
 std::string state_line(const Manifest& manifest) {
   const Machine& machine = manifest.machine;
-  const auto& noise = manifest.measurement.noise;
-  return fmt::format("machine: governor {}, turbo {}, load {:.2f}, noise {}, hardware counters {}",
-                     or_unknown(machine.governor), or_unknown(machine.turbo), machine.load,
-                     noise ? fmt::format("{:.1f}%", 100.0 * *noise) : "not measured",
-                     manifest.measurement.hardware_problem.empty() ? "yes" : "no");
+  const auto& [noise, other] =
+      std::tie(manifest.measurement.noise, manifest.measurement.other_work);
+  return fmt::format(
+      "machine: governor {}, turbo {}, other work {}, noise {}, hardware counters {}",
+      or_unknown(machine.governor), or_unknown(machine.turbo),
+      other ? fmt::format("{:.2f} processors", *other) : "not measured",
+      noise ? fmt::format("{:.1f}%", 100.0 * *noise) : "not measured",
+      manifest.measurement.hardware_problem.empty() ? "yes" : "no");
 }
 
 /// Returns `20240531-140709.417-default`, which sorts by time. It includes milliseconds because
@@ -213,6 +216,7 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
                           MeasuringFloatMode::control_word(),
                           warm_up.count(),
                           accel::best_simd_target(),
+                          std::nullopt,
                           std::nullopt,
                           "",
                           std::nullopt};

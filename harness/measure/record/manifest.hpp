@@ -31,9 +31,10 @@ struct MeasurementFacts {
   int pinned_core;        ///< -1 if the thread could not be pinned
   unsigned control_word;  ///< MXCSR in the timed code
   double warm_up_seconds;
-  std::string simd_target;       ///< Highway's best target here, used by beambench's SIMD
-  std::optional<double> noise;   ///< noise of equal work in the warm-up (`noise`)
-  std::string hardware_problem;  ///< why hardware counters are not read; empty if they are read
+  std::string simd_target;           ///< Highway's best target here, used by beambench's SIMD
+  std::optional<double> noise;       ///< noise of equal work in the warm-up (`noise`)
+  std::optional<double> other_work;  ///< processors that others kept busy in the warm-up
+  std::string hardware_problem;      ///< why hardware counters are not read; empty if they are read
   /// Throttling of the whole run, including the parts before it was resumed; nothing: no quota.
   std::optional<Throttling> throttling{};
 };

@@ -74,6 +74,11 @@ fs::path log_in(const fs::path& folder) {
   return !fs::exists(log) && fs::exists(packed) ? packed : log;
 }
 
+Json with_other_work(Json event, std::optional<double> processors) {
+  if (processors) event["other_work"] = *processors;
+  return event;
+}
+
 /// Adds the events of a log to the run being read.
 class Reader {
  public:
@@ -88,13 +93,14 @@ class Reader {
     } else if (kind == "tuning") {
       pass_over(event);
     } else if (kind == "block") {
-      read_load(event);
+      read_other_work(event);
     } else if (kind == "warning") {
       run_.manifest.at("uncontrolled").push_back(event.at("text"));
     } else if (kind == "throttling") {
       run_.manifest.at("measurement")["throttling"] = event.at("throttling");
     } else if (kind == "end") {
       run_.manifest["finished_utc"] = event.at("time_utc");
+      read_other_work(event);
     } else {
       throw InputError(fmt::format("'{}' is not an event that this version supports", kind));
     }
@@ -108,8 +114,12 @@ class Reader {
   }
 
  private:
-  /// Keeps the highest load seen during the run.
-  void read_load(const Json& event) {
+  /// Keeps the latest mean; of older logs, the highest load average.
+  void read_other_work(const Json& event) {
+    if (event.contains("other_work")) {
+      run_.manifest.at("measurement")["other_work"] = event.at("other_work");
+    }
+    if (!event.contains("load")) return;
     Json& highest = run_.manifest.at("measurement")["highest_load"];
     const double load = event.at("load").get<double>();
     if (!highest.is_number() || highest.get<double>() < load) highest = load;
@@ -272,15 +282,17 @@ void RunLog::resume(const Json& manifest, std::uint64_t log_bytes) {
   add({{"event", "resumed"}, {"manifest", manifest}});
 }
 
-void RunLog::begin_block(const std::string& view, int block, double load) {
-  add({{"event", "block"}, {"view", view}, {"block", block}, {"load", load}});
+void RunLog::begin_block(const std::string& view, int block, std::optional<double> other_work) {
+  add(with_other_work({{"event", "block"}, {"view", view}, {"block", block}}, other_work));
 }
 
 void RunLog::set_throttling(const Throttling& throttling) {
   add({{"event", "throttling"}, {"throttling", to_json(std::optional(throttling))}});
 }
 
-void RunLog::end(const std::string& time_utc) { add({{"event", "end"}, {"time_utc", time_utc}}); }
+void RunLog::end(const std::string& time_utc, std::optional<double> other_work) {
+  add(with_other_work({{"event", "end"}, {"time_utc", time_utc}}, other_work));
+}
 
 void RunLog::add(const Json& event) { file_.value().add_line(json_text(event, -1)); }
 

@@ -93,10 +93,11 @@ class RunLog {
 
   /// Adds an event: one of a cell (`CellEvents`), or an unchanged one from another log.
   void add(const nlohmann::ordered_json& event);
-  /// Records that a block of a view begins, and the load average at that moment.
-  void begin_block(const std::string& view, int block, double load);
+  /// Records that a block of a view begins, and the processors that others have kept busy so far;
+  /// nothing: unknown.
+  void begin_block(const std::string& view, int block, std::optional<double> other_work);
   void set_throttling(const Throttling& throttling);
-  void end(const std::string& time_utc);
+  void end(const std::string& time_utc, std::optional<double> other_work = std::nullopt);
 
  private:
   explicit RunLog(std::filesystem::path folder) : folder_(std::move(folder)), lock_(folder_) {}

@@ -12,6 +12,7 @@ _KEPT_APART = "results/published"
 _MEASURES = ("accel", "harness", "scenes", "CMakeLists.txt", "scripts/beambench_thesis", ":!*.md")
 """Sources that affect times. Texts, plots and tests may change between two folders."""
 _LOOKS_BUSY = 0.05
+_BUSY = 0.1
 _SWEEP = {
     "name": "preflight",
     "scenes": ["escena2"],
@@ -34,7 +35,8 @@ class Provenance:
     embree: str
     noise: float
     """How much longer than usual the slowest 5% of equal work took just now."""
-    load: float
+    other_work: float
+    """The processors that other processes kept busy just now."""
     cpu_quota: float | None = None
     """The quota of processor time, in processors; None without a quota."""
 
@@ -44,8 +46,8 @@ class Provenance:
         found = []
         if self.noise > _LOOKS_BUSY:
             found.append(f"equal work takes up to {self.noise:.0%} longer than usual")
-        if self.load > 1:
-            found.append(f"other work is running (load {self.load:.2f})")
+        if self.other_work > _BUSY:
+            found.append(f"other work keeps {self.other_work:.2f} processors busy")
         if self.cpu_quota is not None and self.cpu_quota < self.cores:
             found.append(f"a CPU quota of {self.cpu_quota:.3g} CPUs is set")
         return found
@@ -77,7 +79,7 @@ def preflight(beambench: Path) -> Provenance:
             machine["cores"],
             program["libraries"]["embree"],
             float(measured["noise"]),
-            float(machine["load_average"]),
+            float(measured["other_work"]),
             machine["cpu_quota"],
         )
     except (TypeError, KeyError) as error:

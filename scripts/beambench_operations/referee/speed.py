@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 COLUMNS = ("contender", "version", "ray_kind", "scene", "rays", "verdict", "blocks", "mrays",
-           "mrays_low", "mrays_high", "commit", "cpu", "highest_load", "utc")  # fmt: skip
+           "mrays_low", "mrays_high", "commit", "cpu", "other_work", "utc")  # fmt: skip
 """The columns of speed.csv; mrays_low and mrays_high are the 95% interval, or empty."""
 
 
@@ -59,7 +59,7 @@ def speed_rows(run: Path) -> list[dict[str, Any]]:
                     "mrays_high": speeds[2],
                     "commit": manifest["program"]["commit"][:8],
                     "cpu": manifest["machine"]["cpu"],
-                    "highest_load": f"{manifest['measurement']['highest_load']:.1f}",
+                    "other_work": f"{manifest['measurement']['other_work']:.2f}",
                     "utc": manifest["time_utc"],
                 }
             )

@@ -5,7 +5,10 @@ from typing import Any
 
 import pandas as pd
 
+from beambench.analysis import Ratio
 from beambench_operations.publish.figures.cells import Cells
+from beambench_operations.publish.figures.formats import is_ahead, is_behind
+from beambench_report.base.cell_files import ratio_of
 from beambench_report.base.names import parameter_items
 
 _LEVELS = ("6", "7", "8")
@@ -15,14 +18,19 @@ _THESIS, _HANDOVER = "0", "48"
 def figures(folder: Path) -> dict[str, Any]:
     """Returns the speedup of the beams over Samet's rays, by level and by option."""
     cells = Cells(folder)
+    by_level = _by_level(cells, _LEVELS)
+    handed_over = [by[_HANDOVER] for own in by_level.values() for by in own.values()]
     return {
         "scenes": cells.scenes,
         "sizes": cells.sizes,
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),
-        "repetitions": (cells.rows["repetitions"].min(), cells.rows["repetitions"].max()),
+        "blocks": (cells.rows["blocks"].min(), cells.rows["blocks"].max()),
         "levels": _LEVELS,
-        "by_level": _by_level(cells, _LEVELS),
+        "by_level": by_level,
+        "all": len(handed_over),
+        "won": sum(map(is_ahead, handed_over)),
+        "lost": sum(map(is_behind, handed_over)),
         "own_best": {
             rays: {
                 (scene, size): {
@@ -48,7 +56,7 @@ def _by_level(cells: Cells, levels: tuple[str, ...]) -> dict[tuple[str, str], di
                     f"beam:max_level={level},handover={handover}",
                     scene=scene,
                     size=size,
-                ).value
+                )
                 for handover in (_THESIS, _HANDOVER)
             }
             for level in levels
@@ -58,14 +66,14 @@ def _by_level(cells: Cells, levels: tuple[str, ...]) -> dict[tuple[str, str], di
     }
 
 
-def _own_best(cells: Cells, rays: str, handover: str, **view: str) -> float:
+def _own_best(cells: Cells, rays: str, handover: str, **view: str) -> Ratio:
     """Returns the ratio of total times (build and trace), each contender at its best level."""
 
-    def least(contender: str) -> float:
+    def best(contender: str) -> pd.Series:
         rows = cells.having(contender, **view)
-        return float(rows[rows["timed"]]["total_ms_median"].min())
+        return rows.loc[rows.loc[rows["timed"], "total_ms"].idxmin()]
 
-    return least(rays) / least(f"beam:handover={handover}")
+    return ratio_of("total", best(rays), best(f"beam:handover={handover}"), cells.files)
 
 
 def _finest(file: Path) -> dict[str, Any]:

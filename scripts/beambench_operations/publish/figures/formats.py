@@ -58,6 +58,12 @@ def is_behind(speedup: Ratio) -> bool:
     return speedup.high is not None and speedup.high < 1
 
 
+def open_in_italics(ratio: Ratio) -> str:
+    """Formats a ratio with two decimals, in italics unless its interval excludes 1."""
+    mark = "" if is_ahead(ratio) or is_behind(ratio) else "*"
+    return f"{mark}{fixed(ratio)}{mark}"
+
+
 def speedup(ratio: Ratio, otherwise: str) -> str:
     """Formats a speedup with its interval; if that is below 1, adds `otherwise`: who is faster."""
     if is_behind(ratio):
@@ -91,5 +97,16 @@ def _value(value: float | Ratio) -> float:
 
 FILTERS: dict[str, Callable[..., str | Ratio]] = {
     one.__name__: one
-    for one in (fixed, short, brief, count, percent, signed_percent, interval, speedup, inverse)
+    for one in (
+        fixed,
+        short,
+        brief,
+        count,
+        percent,
+        signed_percent,
+        interval,
+        open_in_italics,
+        speedup,
+        inverse,
+    )
 }

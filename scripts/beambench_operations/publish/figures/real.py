@@ -8,10 +8,9 @@ from scipy.stats import gmean
 
 from beambench_operations.publish.figures.cells import Cells
 from beambench_report.base.files import read_table
-from beambench_report.base.names import parameter_items
 from beambench_report.run.winners import with_ratios
 
-_WATERTIGHT = "embree, watertight"
+_STREAMS = "sah-bvh builder=spatial"
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -21,13 +20,9 @@ def figures(folder: Path) -> dict[str, Any]:
     cells = Cells(folder)
     kinds = list(dict.fromkeys(cells.rows["kind"]))
     means = {kind: _means(cells, kind) for kind in kinds}
-    embree = {
-        kind: min((value, name) for name, value in own["mean"].items() if _is_embree(name))
-        for kind, own in means.items()
-    }
     columns = ("seconds", "peak_kib")
     large = read_table(folder / "large.csv", columns, "restore it with git").iloc[0]
-    others = [name for name in means[kinds[0]]["mean"] if not _is_embree(name)]
+    others = list(means[kinds[0]]["mean"])
     return {
         "kinds": kinds,
         "scenes": cells.scenes,
@@ -37,36 +32,40 @@ def figures(folder: Path) -> dict[str, Any]:
         "wrong": len(cells.wrong),
         "mean": {kind: own["mean"] for kind, own in means.items()},
         "wins": {kind: own["wins"] for kind, own in means.items()},
-        "embree": embree,
-        "watertight": _WATERTIGHT,
+        "embree": {
+            "at its best": {kind: own["embree"] for kind, own in means.items()},
+            "watertight": {kind: own["watertight"] for kind, own in means.items()},
+        },
+        "streams": _STREAMS,
         "tile_beam": next(name for name in others if name.split()[0] == "tile-beam"),
         "others": sorted(others, key=lambda name: means[kinds[0]]["mean"][name]),
-        "few": float((cells.rows["repetitions"] < 6).mean()),
+        "few": float((cells.rows["blocks"] < 2).mean()),
         "cameras": _cameras(folder / "cameras.csv"),
         "large": {"seconds": large["seconds"], "gib": large["peak_kib"] / 1024**2},
     }
 
 
-def _is_embree(name: str) -> bool:
-    return name.startswith("embree ")
-
-
-def _name(row: pd.Series) -> str:
-    own = parameter_items(row["parameters"])
-    if row["structure"] == "embree" and own.get("robust") == "true":
-        return _WATERTIGHT
-    return str(row["contender"])
-
-
-def _means(cells: Cells, kind: str) -> dict[str, dict]:
+def _means(cells: Cells, kind: str) -> dict[str, Any]:
+    """Returns means over the scenes and wins by contender, and Embree's means in the fastest mode
+    of each scene.
+    """
     timed = cells.having(kind=kind).query("timed")
-    timed = timed.assign(name=timed.apply(_name, axis=1))
     views = (with_ratios(own, cells.files) for _, own in timed.groupby("scene", sort=False))
     ranked = pd.concat(views)
+    is_embree = ranked["structure"] == "embree"
+    embree, others = ranked[is_embree], ranked[~is_embree]
+    is_watertight = embree["contender"].str.contains("robust=true")
     return {
-        "mean": ranked.groupby("name")["ratio"].agg(gmean).to_dict(),
-        "wins": ranked[ranked["is_tied"]].groupby("name").size().to_dict(),
+        "mean": others.groupby("contender")["ratio"].agg(gmean).to_dict(),
+        "wins": others[others["is_tied"]].groupby("contender").size().to_dict(),
+        "embree": _fastest(embree),
+        "watertight": _fastest(embree[is_watertight]),
     }
+
+
+def _fastest(rows: pd.DataFrame) -> dict[str, Any]:
+    best = rows.loc[rows.groupby("scene")["ratio"].idxmin()]
+    return {"mean": float(gmean(best["ratio"])), "wins": int(best["is_tied"].sum())}
 
 
 def _cameras(file: Path) -> dict[str, Any]:
