@@ -187,9 +187,11 @@ class Fake:
         if "run" in command:
             folder = Path(command[-1])
             folder.mkdir(parents=True, exist_ok=True)
-            (folder / "config.json").write_text("{}")
-            finished = None if number == self.stops_at else "2026-11-24T00:00:00Z"
-            (folder / "manifest.json").write_text(json.dumps({"finished_utc": finished}))
+            if number == self.stops_at:
+                (folder / "run.jsonl").write_text("")
+            else:
+                (folder / "config.json").write_text("{}")
+                (folder / "manifest.json").write_text("{}")
         if into is not None:
             into.parent.mkdir(parents=True, exist_ok=True)
             into.write_text("{}")
@@ -266,6 +268,19 @@ def test_what_was_cut_off_here_is_resumed(place: Place) -> None:
     (call,) = again.calls
     assert call == ["/built/beambench", "run", "--resume", str(place.aside / "small/second")]
     assert is_published(place.published / "small", HERE)
+
+
+def test_a_sweep_that_changed_since_is_begun_again(place: Place) -> None:
+    with pytest.raises(Interrupted):
+        make_folder(FOLDER, replace(place, run=Fake(stops_at=3)), HERE)
+    *before, last = FOLDER.steps
+    changed = replace(FOLDER, steps=(*before, replace(last, changes={"repetitions": 2})))
+    again = Fake()
+    make_folder(changed, replace(place, run=again), HERE)
+    (call,) = again.calls
+    assert "--resume" not in call
+    assert call[-1] == str(place.aside / "small/second")
+    assert not (place.published / "small/second/run.jsonl.gz").exists()
 
 
 def test_what_was_cut_off_elsewhere_is_repeated_whole(place: Place) -> None:

@@ -22,6 +22,7 @@ from beambench_report.base.files import (
     write_text,
 )
 from beambench_report.base.quantities import duration_in_words
+from beambench_report.base.run_log import has_log
 
 WRONG_HITS = 1
 _FIRST_TEMPLATES = Path(__file__).parent / "templates"
@@ -105,12 +106,14 @@ def run_program(command: Sequence[str], into: Path | None) -> int:
 def _sweep(step: Sweep, target: Path, place: Place) -> int:
     run = target / step.into
     beambench = [str(place.beambench), *(f"--plugin={one}" for one in place.plugins), "run"]
-    if (run / "config.json").is_file():
+    config = target.with_name(f"{target.name}.sweep.json")
+    wanted = json.dumps(step.config(), indent=1) + "\n"
+    if has_log(run) and config.is_file() and config.read_text("utf-8") == wanted:
         if is_finished(run):  # it ended before that was recorded here
             return 0
         return place.run([*beambench, "--resume", str(run)], None)
-    config = target.with_name(f"{target.name}.sweep.json")
-    write_text(config, json.dumps(step.config(), indent=1) + "\n")
+    shutil.rmtree(run, ignore_errors=True)  # begun with a sweep that has changed since
+    write_text(config, wanted)
     return place.run([*beambench, str(config), "-o", str(run)], None)
 
 
