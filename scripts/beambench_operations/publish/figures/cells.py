@@ -65,15 +65,6 @@ class Cells:
         )
 
     @property
-    def about_backs(self) -> str:
-        """A sentence that says so if `tile-beam` skips the backs of solids; otherwise empty."""
-        if self.having("tile-beam:backface_culling=true").empty:
-            return ""
-        return (
-            "`tile-beam` leaves out the backs of closed solids here, which no other structure does."
-        )
-
-    @property
     def scenes(self) -> list[str]:
         """The scenes in the order of the rows."""
         return list(dict.fromkeys(self.rows["scene"]))

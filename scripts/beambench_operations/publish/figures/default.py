@@ -22,7 +22,6 @@ def figures(folder: Path) -> dict[str, Any]:
     beams = _speedups(cells, _BEAMS)
     return {
         "cells": len(cells.rows),
-        "about_backs": cells.about_backs,
         "wrong": len(cells.wrong),
         "views": analysis.views,
         "means": of_primary.means,

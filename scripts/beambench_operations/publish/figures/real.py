@@ -28,7 +28,6 @@ def figures(folder: Path) -> dict[str, Any]:
         "scenes": cells.scenes,
         "size": cells.sizes[0],
         "cells": len(cells.rows),
-        "about_backs": cells.about_backs,
         "wrong": len(cells.wrong),
         "mean": {kind: own["mean"] for kind, own in means.items()},
         "wins": {kind: own["wins"] for kind, own in means.items()},
@@ -39,7 +38,6 @@ def figures(folder: Path) -> dict[str, Any]:
         "streams": _STREAMS,
         "tile_beam": next(name for name in others if name.split()[0] == "tile-beam"),
         "others": sorted(others, key=lambda name: means[kinds[0]]["mean"][name]),
-        "few": float((cells.rows["blocks"] < 2).mean()),
         "cameras": _cameras(folder / "cameras.csv"),
         "large": {"seconds": large["seconds"], "gib": large["peak_kib"] / 1024**2},
     }

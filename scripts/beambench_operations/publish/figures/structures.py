@@ -35,7 +35,6 @@ def figures(folder: Path) -> dict[str, Any]:
         "views": len(found),
         "undecided": sum(not race.is_decided for race in found),
         "cells": len(cells.rows),
-        "about_backs": cells.about_backs,
         "wrong": wrong.to_dict("records"),
         "single": min(
             (name for name in order if name not in ("embree", "tile-beam")),
