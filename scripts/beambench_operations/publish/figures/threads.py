@@ -14,8 +14,11 @@ _THREADS = 2
 
 
 def is_implausible(speedup: Ratio, threads: int) -> bool:
-    """Returns whether a speedup exceeds the number of threads: a run was probably disturbed."""
-    return speedup.value > threads
+    """Returns whether a speedup exceeds the number of threads: a run was probably disturbed.
+
+    If its interval includes the number of threads, chance explains the excess.
+    """
+    return (speedup.value if speedup.low is None else speedup.low) > threads
 
 
 def figures(folder: Path) -> dict[str, Any]:
