@@ -36,10 +36,6 @@ def figures(folder: Path) -> dict[str, Any]:
         "undecided": sum(not race.is_decided for race in found),
         "cells": len(cells.rows),
         "wrong": wrong.to_dict("records"),
-        "single": min(
-            (name for name in order if name not in ("embree", "tile-beam")),
-            key=lambda name: sum(best[kind][name]["mean"] for kind in _KINDS),
-        ),
         "older": [name for name in order if name not in _NOT_OLDER],
         "size": cells.sizes[0],
     }
