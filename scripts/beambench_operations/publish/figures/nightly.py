@@ -17,7 +17,7 @@ def figures(folder: Path) -> dict[str, Any]:
     return {
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),
-        "minutes": manifest.seconds / 60,
+        "seconds": manifest.seconds,
         "calibration": _calibration(folder / "calibration.json"),
     }
 
