@@ -8,7 +8,7 @@ import pandas as pd
 
 from beambench.analysis import Ratio, geometric_mean
 from beambench_operations.publish.figures.cells import Cells
-from beambench_operations.publish.figures.tuned_embree import STREAMS, TILE_BEAM
+from beambench_operations.publish.figures.tuned_embree import STREAMS, TILE_BEAM, instruction_set
 from beambench_report.base.cell_files import ratio_of
 from beambench_report.base.names import parameter_items
 
@@ -46,7 +46,7 @@ def figures(folder: Path) -> dict[str, Any]:
         "size": cells.sizes[0],
         "cells": len(cells.rows),
         "wrong": cells.wrong.to_dict("records"),
-        "isa": sorted(set(cells.having(TILE_BEAM)["structure_isa"])),
+        "isa": instruction_set(cells),
     }
 
 
