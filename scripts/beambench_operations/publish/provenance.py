@@ -12,7 +12,8 @@ _KEPT_APART = "results/published"
 _MEASURES = ("accel", "harness", "scenes", "CMakeLists.txt", "scripts/beambench_thesis", ":!*.md")
 """Sources that affect times. Texts, plots and tests may change between two folders."""
 _LOOKS_BUSY = 0.05
-_BUSY = 0.1
+QUIET = 0.1
+"""Other work that keeps more processors busy than this disturbs times (kQuiet of the harness)."""
 _SWEEP = {
     "name": "preflight",
     "scenes": ["escena2"],
@@ -35,8 +36,8 @@ class Provenance:
     embree: str
     noise: float
     """How much longer than usual the slowest 5% of equal work took just now."""
-    other_work: float
-    """The processors that other processes kept busy just now."""
+    other_work: float | None
+    """The processors that other processes kept busy just now; None if the system does not tell."""
     cpu_quota: float | None = None
     """The quota of processor time, in processors; None without a quota."""
 
@@ -46,7 +47,7 @@ class Provenance:
         found = []
         if self.noise > _LOOKS_BUSY:
             found.append(f"equal work takes up to {self.noise:.0%} longer than usual")
-        if self.other_work > _BUSY:
+        if self.other_work is not None and self.other_work > QUIET:
             found.append(f"other work keeps {self.other_work:.2f} processors busy")
         if self.cpu_quota is not None and self.cpu_quota < self.cores:
             found.append(f"a CPU quota of {self.cpu_quota:.3g} CPUs is set")
@@ -79,7 +80,7 @@ def preflight(beambench: Path) -> Provenance:
             machine["cores"],
             program["libraries"]["embree"],
             float(measured["noise"]),
-            float(measured["other_work"]),
+            measured["other_work"],
             machine["cpu_quota"],
         )
     except (TypeError, KeyError) as error:

@@ -8,6 +8,7 @@ from typing import Any
 
 from jinja2 import Environment, StrictUndefined
 
+from beambench_operations.publish.provenance import QUIET
 from beambench_operations.referee.findings import (
     Counterexample,
     counterexample,
@@ -20,9 +21,6 @@ from beambench_operations.referee.speed import read_speed
 
 Rows = list[dict[str, Any]]
 PUBLISHED = "results/published/referee"
-QUIET = 0.1
-"""Other work that keeps more processors busy than this disturbs times."""
-
 TEMPLATE = Path(__file__).with_name("page.md.j2")
 
 
